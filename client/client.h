@@ -1,0 +1,115 @@
+// Typed calls to a Truepose server: one request message in, one reply message or a status out.
+//
+// A status has the code that the server chose by what the caller should do, and carries every fault of the request
+// (core/base/fault.h: FaultsOf), so a remote answer prints the same lines as a local one. When no server answers
+// the code is kUnavailable and the message names the address. A call that failed with kUnavailable or
+// kDeadlineExceeded may or may not have taken effect; every create takes an id made by the caller, so repeating
+// it is harmless. Only calls that are idempotent by contract are repeated here (service_config.h).
+//
+// A Client may be used by many threads at once.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "truepose/v1/calibration.pb.h"
+#include "truepose/v1/robot.pb.h"
+#include "truepose/v1/services.pb.h"
+#include "truepose/v1/session.pb.h"
+
+namespace grpc {
+class Channel;
+}
+
+namespace truepose::client {
+
+class AppendStream;
+
+struct ClientOptions {
+  // Of one call, its repeats included. Evaluate and Compensate compute on the server and get ten times as long.
+  std::chrono::milliseconds call_timeout{30'000};
+};
+
+class Client {
+ public:
+  // @param address "host:port", "unix:/path" or "unix:relative/path".
+  // Does not connect yet: an unreachable server shows at the first call.
+  // @returns kInvalidArgument with a fault when the address can't be read.
+  static absl::StatusOr<Client> Connect(const std::string& address, ClientOptions options = {});
+
+  // Over a channel that is there already, such as one within the process. `address` is for messages.
+  Client(std::shared_ptr<grpc::Channel> channel, std::string address, ClientOptions options = {});
+  Client(Client&&) noexcept;
+  Client& operator=(Client&&) noexcept;
+  ~Client();
+
+  absl::StatusOr<v1::Robot> CreateRobot(const v1::CreateRobotRequest& request) const;
+  absl::StatusOr<v1::Robot> GetRobot(const v1::GetRobotRequest& request) const;
+  absl::StatusOr<v1::ListRobotsResponse> ListRobots(const v1::ListRobotsRequest& request) const;
+  absl::StatusOr<v1::NominalRevision> CreateNominalRevision(
+      const v1::CreateNominalRevisionRequest& request) const;
+  absl::StatusOr<v1::NominalRevision> GetNominalRevision(
+      const v1::GetNominalRevisionRequest& request) const;
+  absl::StatusOr<v1::ListNominalRevisionsResponse> ListNominalRevisions(
+      const v1::ListNominalRevisionsRequest& request) const;
+
+  absl::StatusOr<v1::Session> CreateSession(const v1::CreateSessionRequest& request) const;
+  absl::StatusOr<v1::Session> GetSession(const v1::GetSessionRequest& request) const;
+  absl::StatusOr<v1::ListSessionsResponse> ListSessions(
+      const v1::ListSessionsRequest& request) const;
+  absl::StatusOr<v1::Session> SealSession(const v1::SealSessionRequest& request) const;
+  absl::StatusOr<v1::ListReadingsResponse> ListReadings(
+      const v1::ListReadingsRequest& request) const;
+
+  absl::StatusOr<v1::CalibrationJob> CreateCalibrationJob(
+      const v1::CreateCalibrationJobRequest& request) const;
+  absl::StatusOr<v1::CalibrationJob> GetCalibrationJob(
+      const v1::GetCalibrationJobRequest& request) const;
+  absl::StatusOr<v1::ListCalibrationJobsResponse> ListCalibrationJobs(
+      const v1::ListCalibrationJobsRequest& request) const;
+  absl::StatusOr<v1::CalibrationJob> CancelCalibrationJob(
+      const v1::CancelCalibrationJobRequest& request) const;
+  absl::StatusOr<v1::Calibration> GetCalibration(const v1::GetCalibrationRequest& request) const;
+  absl::StatusOr<v1::ListCalibrationsResponse> ListCalibrations(
+      const v1::ListCalibrationsRequest& request) const;
+  absl::StatusOr<v1::Evaluation> Evaluate(const v1::EvaluateRequest& request) const;
+  absl::StatusOr<v1::CompensateResponse> Compensate(const v1::CompensateRequest& request) const;
+
+  // One stream of the job's states: the present one, then each change. `on_job` is called in this thread and ends
+  // the stream by returning false. `is_cancelled`, when given, is asked a few times a second.
+  // @returns OK when the stream ended after a terminal state or by on_job; kCancelled by is_cancelled; else the
+  //   reason. wait_for_job.h connects again when the stream breaks; most callers want that.
+  absl::Status WatchCalibrationJob(const std::string& name,
+                                   const std::function<bool(const v1::CalibrationJob&)>& on_job,
+                                   const std::function<bool()>& is_cancelled = {}) const;
+
+  // A stream of batches; append_readings.h is the whole upload.
+  std::unique_ptr<AppendStream> OpenAppendStream() const;
+
+  const std::string& address() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// Batches of readings in, an acknowledgement a batch out. For one thread.
+class AppendStream {
+ public:
+  virtual ~AppendStream() = default;
+  // Waits while the server is behind. false: the stream is broken, and Finish says why.
+  virtual bool Write(const v1::AppendReadingsRequest& batch) = 0;
+  // No more batches; acknowledgements still come.
+  virtual void WritesDone() = 0;
+  // The next acknowledgement; false: none will come, and Finish says why.
+  virtual bool Read(v1::AppendReadingsResponse* acknowledgement) = 0;
+  // The server's last word; call it once, after Read or Write returned false.
+  virtual absl::Status Finish() = 0;
+};
+
+}  // namespace truepose::client
