@@ -1,0 +1,76 @@
+#include "core/measurement/reading.h"
+
+#include <array>
+#include <cmath>
+
+namespace truepose {
+namespace {
+
+void PositionResidual(const Reading& reading, const Pose& X_MT, Residual* r, ResidualByTwist* D, int rows) {
+  r->resize(rows);
+  r->head<3>() = reading.X_MT.p - X_MT.p;
+  if (D == nullptr) return;
+  D->setZero(rows, 6);
+  D->topLeftCorner<3, 3>() = -Eigen::Matrix3d::Identity();
+}
+
+void EvaluatePoint(const Reading& reading, const Pose& X_MT, Residual* r, ResidualByTwist* D) {
+  PositionResidual(reading, X_MT, r, D, 3);
+}
+
+// R_measured R^T Exp(-w): d Log = -J_r^-1(Log) w.
+void EvaluatePose(const Reading& reading, const Pose& X_MT, Residual* r, ResidualByTwist* D) {
+  PositionResidual(reading, X_MT, r, D, 6);
+  const Eigen::Vector3d rotation = LogRotation<double>(reading.X_MT.R * X_MT.R.transpose());
+  r->tail<3>() = rotation;
+  if (D != nullptr) D->bottomRightCorner<3, 3>() = -RightJacobianInverse(rotation);
+}
+
+// Two unit vectors perpendicular to a and to each other, as rows.
+Eigen::Matrix<double, 2, 3> PerpendicularRows(const Eigen::Vector3d& a) {
+  int smallest = 0;
+  a.cwiseAbs().minCoeff(&smallest);
+  const Eigen::Vector3d e1 = a.cross(Eigen::Vector3d::Unit(smallest)).normalized();
+  Eigen::Matrix<double, 2, 3> rows;
+  rows << e1.transpose(), a.cross(e1).transpose();
+  return rows;
+}
+
+// angle / sin(angle) as a function of c = cos(angle), and its derivative by c; by series where they are 0 / 0.
+struct AngleOverSine {
+  double value, derivative;
+};
+
+AngleOverSine AngleOverSineOf(double c, double s) {
+  if (c > 0 && s < 1e-4) return {1 + s * s / 6, -1.0 / 3 - 2 * s * s / 15};
+  const double value = std::atan2(s, c) / std::max(s, 1e-12);
+  return {value, (c * value - 1) / std::max(s * s, 1e-24)};
+}
+
+// Rotation vector f(c) (a x m) from predicted axis a to measured axis m, with c = a . m and da = w x a.
+void EvaluatePointAxis(const Reading& reading, const Pose& X_MT, Residual* r, ResidualByTwist* D) {
+  PositionResidual(reading, X_MT, r, D, 5);
+  const Eigen::Vector3d m = reading.axis_M, a = X_MT.R.col(2), cross = a.cross(m);
+  const auto [f, df] = AngleOverSineOf(a.dot(m), cross.norm());
+  const Eigen::Matrix<double, 2, 3> rows = PerpendicularRows(m);
+  r->tail<2>() = rows * (f * cross);
+  if (D == nullptr) return;
+  // da = -Hat(a) w; d cross = -Hat(m) da; dc = m . da
+  const Eigen::Matrix3d da = -Hat<double>(a);
+  const Eigen::Matrix3d derivative = -f * Hat<double>(m) * da + df * cross * (m.transpose() * da);
+  D->bottomRightCorner<2, 3>() = rows * derivative;
+}
+
+constexpr std::array<MeasurementKind, 3> kKinds = {{
+    {ObservationKind::kPose, "pose", 3, EvaluatePose},
+    {ObservationKind::kPoint, "point", 0, EvaluatePoint},
+    {ObservationKind::kPointAxis, "point_axis", 2, EvaluatePointAxis},
+}};
+
+}  // namespace
+
+const MeasurementKind& KindOf(ObservationKind kind) { return kKinds[static_cast<size_t>(kind)]; }
+
+int RowsOf(const Reading& reading) { return 3 + KindOf(reading.kind).rotation_rows; }
+
+}  // namespace truepose
