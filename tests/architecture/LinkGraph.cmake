@@ -1,5 +1,5 @@
-# Writes ${PROJECT_BINARY_DIR}/link_graph.txt with a line "target|folder|item;item" for each library of the tree, once
-# all folders are read. A PRIVATE item of a static library stands there too, as $<LINK_ONLY:item> or plain.
+# Writes ${PROJECT_BINARY_DIR}/link_graph.txt with a line "target|folder|item;item" for each library and program of the
+# tree, once all folders are read; PRIVATE items too. The folder is the one its first source is in.
 function(truepose_targets_below folder out)
   get_property(found DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)
   get_property(below DIRECTORY ${folder} PROPERTY SUBDIRECTORIES)
@@ -10,14 +10,24 @@ function(truepose_targets_below folder out)
   set(${out} ${found} PARENT_SCOPE)
 endfunction()
 
+function(truepose_folder_of target out)
+  get_target_property(folder ${target} SOURCE_DIR)
+  get_target_property(sources ${target} SOURCES)
+  list(GET sources 0 first)
+  if(first AND NOT IS_ABSOLUTE "${first}")
+    get_filename_component(folder ${folder}/${first} DIRECTORY)
+  endif()
+  file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${folder})
+  set(${out} ${folder} PARENT_SCOPE)
+endfunction()
+
 function(truepose_write_link_graph)
   truepose_targets_below(${PROJECT_SOURCE_DIR} targets)
   set(lines "")
   foreach(target ${targets})
     get_target_property(type ${target} TYPE)
     if(type MATCHES "LIBRARY|EXECUTABLE")
-      get_target_property(folder ${target} SOURCE_DIR)
-      file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${folder})
+      truepose_folder_of(${target} folder)
       get_target_property(private ${target} LINK_LIBRARIES)
       get_target_property(public ${target} INTERFACE_LINK_LIBRARIES)
       string(REGEX REPLACE "\\$<LINK_ONLY:([^>]*)>" "\\1" items "${private};${public}")

@@ -15,6 +15,10 @@ TEXT = (".cc", ".h", ".py", ".sh", ".proto", ".sql", ".ts", ".cmake", "CMakeList
 OWN = ("core/", "formats/", "convert/", "server/", "client/", "bench/", "tests/")
 
 
+# The root's options and the generated messages.
+_LINK_NOTHING_OF_OURS = ("", "proto")
+
+
 def include_direction(root):
     """No include upwards or sideways, and no file outside of the table of layers."""
     faults = []
@@ -44,7 +48,9 @@ def link_direction(links):
     faults = [] if rows else ["the graph of links is empty"]
     for target, folder, items in rows:
         row = layers.row_of(folder)
-        for item in filter(None, items.split(";")):
+        if row is None and folder not in _LINK_NOTHING_OF_OURS:
+            faults.append(f"{target} in {folder}: its folder has no row in tests/architecture/layers.py")
+        for item in sorted(set(filter(None, items.split(";")))):
             used = _used_by_link(item, folder_of)
             if row is not None and used is not None and not layers.may_use(row, used):
                 faults.append(f"{target} in {folder} must not link {item} ({used})")

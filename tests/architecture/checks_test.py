@@ -122,6 +122,9 @@ class LinkDirection(unittest.TestCase):
         graph = "truepose_robot|core/robot|truepose_chain;absl::status;Eigen3::Eigen\ntruepose_chain|core/chain|"
         self.assertEqual(checks.link_direction(graph), [])
 
+    def test_target_without_a_layer(self):
+        self.assertEqual(len(checks.link_direction("truepose_extra|extras|")), 1)
+
     def test_empty_graph(self):
         self.assertEqual(len(checks.link_direction("\n")), 1)
 
