@@ -1,10 +1,11 @@
 // Typed calls to a Truepose server: one request message in, one reply message or a status out.
 //
-// A status has the code that the server chose by what the caller should do, and carries every fault of the request
-// (core/base/fault.h: FaultsOf), so a remote answer prints the same lines as a local one. When no server answers
-// the code is kUnavailable and the message names the address. A call that failed with kUnavailable or
-// kDeadlineExceeded may or may not have taken effect; every create takes an id made by the caller, so repeating
-// it is harmless. Only calls that are idempotent by contract are repeated here (service_config.h).
+// A status has the code that the server chose by what the caller should do, and carries every fault
+// of the request (core/base/fault.h: FaultsOf), so a remote answer prints the same lines as a local
+// one. When no server answers the code is kUnavailable and the message names the address. A call
+// that failed with kUnavailable or kDeadlineExceeded may or may not have taken effect; every create
+// takes an id made by the caller, so repeating it is harmless. Only calls that are idempotent by
+// contract are repeated here (service_config.h).
 //
 // A Client may be used by many threads at once.
 #pragma once
@@ -31,7 +32,8 @@ namespace truepose::client {
 class AppendStream;
 
 struct ClientOptions {
-  // Of one call, its repeats included. Evaluate and Compensate compute on the server and get ten times as long.
+  // Of one call, its repeats included. Evaluate and Compensate compute on the server and get ten
+  // times as long.
   std::chrono::milliseconds call_timeout{30'000};
 };
 
@@ -42,7 +44,8 @@ class Client {
   // @returns kInvalidArgument with a fault when the address can't be read.
   static absl::StatusOr<Client> Connect(const std::string& address, ClientOptions options = {});
 
-  // Over a channel that is there already, such as one within the process. `address` is for messages.
+  // Over a channel that is there already, such as one within the process. `address` is for
+  // messages.
   Client(std::shared_ptr<grpc::Channel> channel, std::string address, ClientOptions options = {});
   Client(Client&&) noexcept;
   Client& operator=(Client&&) noexcept;
@@ -80,9 +83,11 @@ class Client {
   absl::StatusOr<v1::Evaluation> Evaluate(const v1::EvaluateRequest& request) const;
   absl::StatusOr<v1::CompensateResponse> Compensate(const v1::CompensateRequest& request) const;
 
-  // One stream of the job's states: the present one, then each change. `on_job` is called in this thread and ends
-  // the stream by returning false. `is_cancelled`, when given, is asked a few times a second.
-  // @returns OK when the stream ended after a terminal state or by on_job; kCancelled by is_cancelled; else the
+  // One stream of the job's states: the present one, then each change. `on_job` is called in this
+  // thread and ends the stream by returning false. `is_cancelled`, when given, is asked a few times
+  // a second.
+  // @returns OK when the stream ended after a terminal state or by on_job; kCancelled by
+  // is_cancelled; else the
   //   reason. wait_for_job.h connects again when the stream breaks; most callers want that.
   absl::Status WatchCalibrationJob(const std::string& name,
                                    const std::function<bool(const v1::CalibrationJob&)>& on_job,

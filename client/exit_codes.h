@@ -1,4 +1,5 @@
-// What a Truepose program tells the shell. server/exit_codes.h has the same numbers, and a test holds them equal.
+// What a Truepose program tells the shell. server/exit_codes.h has the same numbers, and a test
+// holds them equal.
 #pragma once
 
 namespace truepose::client {

@@ -9,8 +9,9 @@
 
 namespace truepose::client {
 
-// Calls `list(request)` page by page and hands each reply to `on_page`, which returns an absl::Status and ends the
-// walk when that is not OK. A server that answers with the token it was given would keep us forever: kInternal.
+// Calls `list(request)` page by page and hands each reply to `on_page`, which returns an
+// absl::Status and ends the walk when that is not OK. A server that answers with the token it was
+// given would keep us forever: kInternal.
 //   ForEachPage(v1::ListRobotsRequest(), [&](const auto& r) { return client.ListRobots(r); },
 //               [&](const v1::ListRobotsResponse& page) { ...; return absl::OkStatus(); });
 template <typename Request, typename List, typename OnPage>

@@ -21,9 +21,10 @@ struct WaitOptions {
   std::chrono::milliseconds poll_interval{500};  // between looks while watching is not possible
 };
 
-// Waits until the job SUCCEEDED, FAILED or was CANCELLED: watches, connects again when the stream breaks, and asks
-// with GetCalibrationJob where streams do not pass.
-// @returns the job in its terminal state, whichever it is; kNotFound; kCancelled by is_cancelled; kUnavailable
+// Waits until the job SUCCEEDED, FAILED or was CANCELLED: watches, connects again when the stream
+// breaks, and asks with GetCalibrationJob where streams do not pass.
+// @returns the job in its terminal state, whichever it is; kNotFound; kCancelled by is_cancelled;
+// kUnavailable
 //   when no server answered for `patience`. The job itself is never touched.
 absl::StatusOr<v1::CalibrationJob> WaitForJob(const Client& client, const std::string& name,
                                               const WaitOptions& options = {});

@@ -1,0 +1,136 @@
+#include "client/cli/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <map>
+
+#include "absl/strings/str_cat.h"
+#include "client/cli/outcome.h"
+
+namespace truepose::cli {
+
+struct CommandLine::Impl {
+  explicit Impl(const std::string& summary) : app(summary) {}
+
+  CLI::App app;
+  std::map<const CLI::App*, Action> actions;
+  bool json = false;
+  std::string server = "127.0.0.1:7878";
+};
+
+namespace {
+
+CLI::Option* AddOption(CLI::App* app, const std::string& names, const Target& target, const std::string& help) {
+  if (bool* const* flag = std::get_if<bool*>(&target)) return app->add_flag(names, **flag, help);
+  return std::visit([&](auto* value) { return app->add_option(names, *value, help); }, target);
+}
+
+CLI::Option* Describe(CLI::App* app, const std::string& names, const std::string& value, const Target& target,
+                      const std::string& help) {
+  CLI::Option* option = AddOption(app, names, target, help);
+  // Without a value text the parser would print the C++ type.
+  if (!std::holds_alternative<bool*>(target)) option->type_name(value);
+  // A number that stands is worth showing; an empty text is not.
+  if (std::holds_alternative<double*>(target) || std::holds_alternative<int*>(target) ||
+      std::holds_alternative<unsigned long long*>(target)) {
+    option->capture_default_str();
+  }
+  return option;
+}
+
+const CLI::App* Deepest(const CLI::App* app) {
+  while (!app->get_subcommands().empty()) app = app->get_subcommands().front();
+  return app;
+}
+
+// "truepose session import"
+std::string FullName(const CLI::App* app) {
+  if (app->get_parent() == nullptr) return app->get_name();
+  return absl::StrCat(FullName(app->get_parent()), " ", app->get_name());
+}
+
+}  // namespace
+
+Command Command::Add(const std::string& name, const std::string& summary) const {
+  app_->require_subcommand(0, 1);
+  return Command(app_->add_subcommand(name, summary), line_);
+}
+
+const Command& Command::Option(const std::string& names, const std::string& value, Target target,
+                               const std::string& help) const {
+  Describe(app_, names, value, target, help);
+  return *this;
+}
+
+const Command& Command::Required(const std::string& names, const std::string& value, Target target,
+                                 const std::string& help) const {
+  Describe(app_, names, value, target, help)->required();
+  return *this;
+}
+
+const Command& Command::Footer(const std::string& text) const {
+  app_->footer(text);
+  return *this;
+}
+
+void Command::Run(Reach reach, Action action) const {
+  CommandLine::Impl& impl = *line_->impl_;
+  app_->add_flag("--json", impl.json, "Print one JSON object");
+  if (reach == Reach::kRemote) {
+    app_->add_option("--server", impl.server, "Where trueposed listens: host:port or unix:/path")
+        ->type_name("ADDRESS")
+        ->envname("TRUEPOSE_SERVER")
+        ->capture_default_str();
+  }
+  impl.actions[app_] = std::move(action);
+}
+
+void Command::PassOn(Action action) const {
+  app_->prefix_command();
+  app_->set_help_flag();
+  line_->impl_->actions[app_] = std::move(action);
+}
+
+CommandLine::CommandLine(const std::string& program, const std::string& summary)
+    : impl_(std::make_unique<Impl>(summary)) {
+  impl_->app.name(program);
+  impl_->app.get_formatter()->column_width(34);
+}
+
+CommandLine::~CommandLine() = default;
+
+Command CommandLine::root() { return Command(&impl_->app, this); }
+
+absl::Status CommandLine::Parse(const std::vector<std::string>& arguments, const Console& console, bool* helped) {
+  // The parser takes its arguments from the back.
+  std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
+  try {
+    impl_->app.parse(reversed);
+  } catch (const CLI::CallForHelp&) {
+    console.out << impl_->app.help();
+    *helped = true;
+  } catch (const CLI::ConversionError& error) {
+    return OptionFault(FullName(Deepest(&impl_->app)), error.what(), "a value of the type that --help shows");
+  } catch (const CLI::ParseError& error) {
+    return UsageError(absl::StrCat(error.what(), "\nTry `", FullName(Deepest(&impl_->app)), " --help`."));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status CommandLine::RunSelected(const Console& console) {
+  const CLI::App* selected = Deepest(&impl_->app);
+  const auto action = impl_->actions.find(selected);
+  if (action == impl_->actions.end()) {
+    return UsageError(absl::StrCat("a command is missing after `", FullName(selected), "`\nTry `",
+                                   FullName(selected), " --help`."));
+  }
+  return action->second({console, impl_->json, impl_->server, selected->remaining()});
+}
+
+absl::Status CommandLine::Run(const std::vector<std::string>& arguments, const Console& console) {
+  bool helped = false;
+  if (absl::Status status = Parse(arguments, console, &helped); !status.ok() || helped) return status;
+  return RunSelected(console);
+}
+
+}  // namespace truepose::cli

@@ -1,0 +1,45 @@
+// Files named on the command line become messages. Whatever is wrong with a file is kInvalidArgument with all its
+// faults, each with file and line where the file has lines.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "client/cli/console.h"
+#include "formats/robot_file.h"
+#include "truepose/v1/calibration.pb.h"
+#include "truepose/v1/session.pb.h"
+
+namespace truepose::cli {
+
+// A robot file whose content convert::ValidateNominal accepts.
+absl::StatusOr<formats::RobotFile> LoadRobot(const std::string& path);
+
+// A session file for that robot. The session's name is `path` and its robot is not set. What the file's reader and
+// the joint limits warn of goes to console.err.
+// @param euler "" or the convention of rx_, ry_, rz_ columns (formats/session_file.h).
+// @param strict_limits a joint beyond its limit is a fault, not a warning.
+absl::StatusOr<v1::SessionInput> LoadSession(const std::string& path, const v1::Nominal& nominal,
+                                             const std::string& euler, bool strict_limits, const Console& console);
+
+// All of them, or the faults of all of them.
+absl::StatusOr<std::vector<v1::SessionInput>> LoadSessions(const std::vector<std::string>& paths,
+                                                           const v1::Nominal& nominal, const std::string& euler,
+                                                           bool strict_limits, const Console& console);
+
+// A file that `calibrate --output` wrote (or `simulate --truth`).
+absl::StatusOr<v1::Calibration> LoadCalibration(const std::string& path);
+
+// "pose", "point", "point_axis" or "" of the option --observe.
+absl::StatusOr<v1::Observe> ParseObserve(const std::string& text);
+
+// What Calibration.nominal_revision is for a robot that no server knows: "sha256:" and the nominal's digest.
+std::string LocalRevision(const v1::Nominal& nominal);
+
+// A calibration made from another robot file is a fault of `--robot`. One that a server made names a revision and
+// can't be told this way; convert compares what it needs.
+absl::Status CheckBelongsTogether(const v1::Calibration& calibration, const v1::Nominal& nominal,
+                                  const std::string& robot_path);
+
+}  // namespace truepose::cli

@@ -1,0 +1,74 @@
+#include "client/cli/outcome.h"
+
+#include "absl/strings/cord.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_replace.h"
+#include "client/cli/json.h"
+#include "client/exit_codes.h"
+#include "core/base/fault.h"
+
+namespace truepose::cli {
+namespace {
+
+constexpr char kUsagePayload[] = "type.truepose/usage";
+
+// The same status with another code or message; an absl::Status can't be changed in place.
+absl::Status Copy(const absl::Status& status, absl::StatusCode code, std::string_view message) {
+  absl::Status copy(code, message);
+  status.ForEachPayload([&](absl::string_view type, const absl::Cord& payload) { copy.SetPayload(type, payload); });
+  return copy;
+}
+
+}  // namespace
+
+absl::Status UsageError(std::string_view message) {
+  absl::Status status = absl::InvalidArgumentError(message);
+  status.SetPayload(kUsagePayload, absl::Cord());
+  return status;
+}
+
+absl::Status OptionFault(std::string_view option, std::string_view found, std::string_view expected) {
+  return FaultStatus(std::string(option), absl::StrCat("'", found, "'"), std::string(expected));
+}
+
+absl::Status AsInputFault(const absl::Status& status) {
+  if (status.ok()) return status;
+  return Copy(status, absl::StatusCode::kInvalidArgument, status.message());
+}
+
+absl::Status WithHint(const absl::Status& status, absl::StatusCode code, std::string_view hint) {
+  if (status.code() != code) return status;
+  return Copy(status, code, absl::StrCat(status.message(), "\n", hint));
+}
+
+int ExitCodeOf(const absl::Status& status) {
+  switch (status.code()) {
+    case absl::StatusCode::kOk:
+      return client::kExitOk;
+    case absl::StatusCode::kInvalidArgument:
+      return status.GetPayload(kUsagePayload).has_value() ? client::kExitUsage : client::kExitInput;
+    case absl::StatusCode::kOutOfRange:
+    case absl::StatusCode::kAlreadyExists:
+      return client::kExitInput;
+    case absl::StatusCode::kUnavailable:
+    case absl::StatusCode::kDeadlineExceeded:
+      return client::kExitUnavailable;
+    case absl::StatusCode::kDataLoss:
+      return client::kExitDatabase;
+    case absl::StatusCode::kNotFound:
+      return client::kExitNotFound;
+    default:
+      return client::kExitRunFailed;
+  }
+}
+
+void PrintError(const Console& console, bool json, const absl::Status& status) {
+  if (status.ok()) return;
+  const bool several = FaultsOf(status).size() > 1;
+  if (several) console.err << "truepose: " << FaultsOf(status).size() << " faults\n";
+  const std::string indented = absl::StrReplaceAll(status.message(), {{"\n", "\n  "}});
+  console.err << (several ? "  " : "truepose: ") << indented << "\n";
+  if (json) console.out << ErrorJson(status) << "\n";
+}
+
+}  // namespace truepose::cli

@@ -1,0 +1,27 @@
+// What a Client holds; for the .cc files of the library only, so that its users never include gRPC.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "client/client.h"
+#include "grpcpp/channel.h"
+#include "grpcpp/client_context.h"
+#include "truepose/v1/services.grpc.pb.h"
+
+namespace truepose::client {
+
+struct Client::Impl {
+  Impl(std::shared_ptr<grpc::Channel> channel, std::string address, ClientOptions options);
+
+  std::string address;
+  ClientOptions options;
+  std::unique_ptr<v1::RobotService::Stub> robots;
+  std::unique_ptr<v1::SessionService::Stub> sessions;
+  std::unique_ptr<v1::CalibrationService::Stub> calibrations;
+};
+
+// The metadata that every call carries.
+void PrepareContext(grpc::ClientContext& context);
+
+}  // namespace truepose::client
