@@ -42,6 +42,9 @@ class IncludeDirection(TreeCase):
     def test_core_including_sideways(self):
         self.bites("core/models/a.h", '"core/measurement/b.h"')
 
+    def test_identification_including_what_judges_it(self):
+        self.bites("core/identification/identify.cc", '"core/assessment/verdict.h"')
+
     def test_core_including_downwards_passes(self):
         self.passes("core/robot/robot.h", '"core/chain/chain.h"')
 

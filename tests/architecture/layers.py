@@ -11,7 +11,8 @@ _CORE_ORDER = (
     ("core/robot",),
     ("core/parameters",),
     ("core/models", "core/measurement"),
-    ("core/identification", "core/assessment", "core/planning", "core/compensation"),
+    ("core/identification", "core/compensation"),
+    ("core/assessment", "core/planning"),  # docs/decisions/0004
     ("core/calibrate", "core/simulation"),
 )
 
@@ -31,7 +32,7 @@ ALLOWED = {
     "formats": ("core/base", "proto", "yaml", "json", "io"),
     "convert": ("core", "proto", "openssl", "io"),
     "server/store": ("core/base", "proto", "sqlite", "openssl", "io"),
-    "server/jobs": ("core/base", "convert", "server/store", "proto", "io"),
+    "server/jobs": ("core/base", "convert", "server/store", "proto", "io", "spdlog"),
     "server/resource": ("core/base", "proto", "openssl", "io"),
     "server/rpc": ("core/base", "server/resource", "proto", "grpc", "io", "spdlog"),
     "server/services": (
