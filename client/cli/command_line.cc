@@ -20,13 +20,14 @@ struct CommandLine::Impl {
 
 namespace {
 
-CLI::Option* AddOption(CLI::App* app, const std::string& names, const Target& target, const std::string& help) {
+CLI::Option* AddOption(CLI::App* app, const std::string& names, const Target& target,
+                       const std::string& help) {
   if (bool* const* flag = std::get_if<bool*>(&target)) return app->add_flag(names, **flag, help);
   return std::visit([&](auto* value) { return app->add_option(names, *value, help); }, target);
 }
 
-CLI::Option* Describe(CLI::App* app, const std::string& names, const std::string& value, const Target& target,
-                      const std::string& help) {
+CLI::Option* Describe(CLI::App* app, const std::string& names, const std::string& value,
+                      const Target& target, const std::string& help) {
   CLI::Option* option = AddOption(app, names, target, help);
   // Without a value text the parser would print the C++ type.
   if (!std::holds_alternative<bool*>(target)) option->type_name(value);
@@ -101,7 +102,8 @@ CommandLine::~CommandLine() = default;
 
 Command CommandLine::root() { return Command(&impl_->app, this); }
 
-absl::Status CommandLine::Parse(const std::vector<std::string>& arguments, const Console& console, bool* helped) {
+absl::Status CommandLine::Parse(const std::vector<std::string>& arguments, const Console& console,
+                                bool* helped) {
   // The parser takes its arguments from the back.
   std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
   try {
@@ -110,9 +112,11 @@ absl::Status CommandLine::Parse(const std::vector<std::string>& arguments, const
     console.out << impl_->app.help();
     *helped = true;
   } catch (const CLI::ConversionError& error) {
-    return OptionFault(FullName(Deepest(&impl_->app)), error.what(), "a value of the type that --help shows");
+    return OptionFault(FullName(Deepest(&impl_->app)), error.what(),
+                       "a value of the type that --help shows");
   } catch (const CLI::ParseError& error) {
-    return UsageError(absl::StrCat(error.what(), "\nTry `", FullName(Deepest(&impl_->app)), " --help`."));
+    return UsageError(
+        absl::StrCat(error.what(), "\nTry `", FullName(Deepest(&impl_->app)), " --help`."));
   }
   return absl::OkStatus();
 }
@@ -129,7 +133,8 @@ absl::Status CommandLine::RunSelected(const Console& console) {
 
 absl::Status CommandLine::Run(const std::vector<std::string>& arguments, const Console& console) {
   bool helped = false;
-  if (absl::Status status = Parse(arguments, console, &helped); !status.ok() || helped) return status;
+  if (absl::Status status = Parse(arguments, console, &helped); !status.ok() || helped)
+    return status;
   return RunSelected(console);
 }
 

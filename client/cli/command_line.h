@@ -26,9 +26,10 @@ struct Invocation {
 
 using Action = std::function<absl::Status(const Invocation&)>;
 
-// Filled when the command line is parsed; it has to live until then. A list option may be given several times or with
-// several values.
-using Target = std::variant<bool*, int*, unsigned long long*, double*, std::string*, std::vector<std::string>*>;
+// Filled when the command line is parsed; it has to live until then. A list option may be given
+// several times or with several values.
+using Target = std::variant<bool*, int*, unsigned long long*, double*, std::string*,
+                            std::vector<std::string>*>;
 
 class CommandLine;
 
@@ -37,8 +38,8 @@ class Command {
  public:
   Command Add(const std::string& name, const std::string& summary) const;
 
-  // `names` as "--output" or "FILE" (a positional); `value` is the placeholder in the help, "" for flags and
-  // positionals.
+  // `names` as "--output" or "FILE" (a positional); `value` is the placeholder in the help, "" for
+  // flags and positionals.
   const Command& Option(const std::string& names, const std::string& value, Target target,
                         const std::string& help) const;
   const Command& Required(const std::string& names, const std::string& value, Target target,
@@ -69,13 +70,15 @@ class CommandLine {
   Command root();
 
   // Parses and runs. --help prints on console.out.
-  // @returns the action's status; a UsageError when the line can't be understood; an option fault for a value that is
+  // @returns the action's status; a UsageError when the line can't be understood; an option fault
+  // for a value that is
   //   not of its type.
   absl::Status Run(const std::vector<std::string>& arguments, const Console& console);
 
  private:
   friend class Command;
-  absl::Status Parse(const std::vector<std::string>& arguments, const Console& console, bool* helped);
+  absl::Status Parse(const std::vector<std::string>& arguments, const Console& console,
+                     bool* helped);
   absl::Status RunSelected(const Console& console);
 
   struct Impl;

@@ -5,7 +5,7 @@
 namespace truepose::cli {
 namespace {
 
-std::string_view Code(Colour colour) {
+absl::string_view Code(Colour colour) {
   switch (colour) {
     case Colour::kGreen:
       return "\x1b[32m";
@@ -21,12 +21,12 @@ std::string_view Code(Colour colour) {
 
 }  // namespace
 
-std::string Paint(const Console& console, Colour colour, std::string_view text) {
+std::string Paint(const Console& console, Colour colour, absl::string_view text) {
   if (!console.colour) return std::string(text);
   return absl::StrCat(Code(colour), text, "\x1b[0m");
 }
 
-void Warn(const Console& console, std::string_view text) {
+void Warn(const Console& console, absl::string_view text) {
   console.err << "warning: " << text << "\n";
 }
 

@@ -3,7 +3,8 @@
 
 #include <ostream>
 #include <string>
-#include <string_view>
+
+#include "absl/strings/string_view.h"
 
 namespace truepose::cli {
 
@@ -19,9 +20,9 @@ struct Console {
 enum class Colour { kGreen, kYellow, kRed, kBold };
 
 // `text` in a colour on a terminal, else as it is.
-std::string Paint(const Console& console, Colour colour, std::string_view text);
+std::string Paint(const Console& console, Colour colour, absl::string_view text);
 
 // One line on `err`.
-void Warn(const Console& console, std::string_view text);
+void Warn(const Console& console, absl::string_view text);
 
 }  // namespace truepose::cli

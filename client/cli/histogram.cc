@@ -65,7 +65,7 @@ std::string Bar(int count, int largest, int columns, bool utf8) {
 }
 
 std::string BeforeAfterHistogram(const std::vector<double>& before,
-                                 const std::vector<double>& after, std::string_view unit,
+                                 const std::vector<double>& after, absl::string_view unit,
                                  bool utf8) {
   if (before.empty() && after.empty()) return "";
   const double largest = std::max(Largest(before), Largest(after));
@@ -73,7 +73,11 @@ std::string BeforeAfterHistogram(const std::vector<double>& before,
   const int bins = std::max(1, static_cast<int>(std::ceil(largest / width - 1e-9)));
   const std::vector<int> counts[] = {CountBins(before, width, bins), CountBins(after, width, bins)};
   const int most = std::max(LargestCount(counts[0]), LargestCount(counts[1]));
-  Table table({{absl::StrCat("from ", unit)}, {"before"}, {"", Align::kLeft}, {"after"}, {"", Align::kLeft}});
+  Table table({{absl::StrCat("from ", unit)},
+               {"before"},
+               {"", Align::kLeft},
+               {"after"},
+               {"", Align::kLeft}});
   for (int i = 0; i < bins; ++i) {
     table.Add({Fixed(i * width, DigitsOf(width)), absl::StrCat(counts[0][i]),
                Bar(counts[0][i], most, kBarColumns, utf8), absl::StrCat(counts[1][i]),

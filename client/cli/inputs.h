@@ -1,5 +1,5 @@
-// Files named on the command line become messages. Whatever is wrong with a file is kInvalidArgument with all its
-// faults, each with file and line where the file has lines.
+// Files named on the command line become messages. Whatever is wrong with a file is
+// kInvalidArgument with all its faults, each with file and line where the file has lines.
 #pragma once
 
 #include <string>
@@ -16,17 +16,17 @@ namespace truepose::cli {
 // A robot file whose content convert::ValidateNominal accepts.
 absl::StatusOr<formats::RobotFile> LoadRobot(const std::string& path);
 
-// A session file for that robot. The session's name is `path` and its robot is not set. What the file's reader and
-// the joint limits warn of goes to console.err.
+// Session files for that robot, or the faults of all of them. A session's name is its path; its
+// robot is not set. What the reader of a file warns of goes to console.err.
 // @param euler "" or the convention of rx_, ry_, rz_ columns (formats/session_file.h).
-// @param strict_limits a joint beyond its limit is a fault, not a warning.
-absl::StatusOr<v1::SessionInput> LoadSession(const std::string& path, const v1::Nominal& nominal,
-                                             const std::string& euler, bool strict_limits, const Console& console);
-
-// All of them, or the faults of all of them.
 absl::StatusOr<std::vector<v1::SessionInput>> LoadSessions(const std::vector<std::string>& paths,
-                                                           const v1::Nominal& nominal, const std::string& euler,
-                                                           bool strict_limits, const Console& console);
+                                                           const v1::Nominal& nominal,
+                                                           const std::string& euler,
+                                                           const Console& console);
+
+// Joints beyond their limits: warnings on console.err, with `strict` faults.
+absl::Status CheckLimits(const v1::Nominal& nominal, const v1::SessionInput& session, bool strict,
+                         const Console& console);
 
 // A file that `calibrate --output` wrote (or `simulate --truth`).
 absl::StatusOr<v1::Calibration> LoadCalibration(const std::string& path);
@@ -34,11 +34,12 @@ absl::StatusOr<v1::Calibration> LoadCalibration(const std::string& path);
 // "pose", "point", "point_axis" or "" of the option --observe.
 absl::StatusOr<v1::Observe> ParseObserve(const std::string& text);
 
-// What Calibration.nominal_revision is for a robot that no server knows: "sha256:" and the nominal's digest.
+// What Calibration.nominal_revision is for a robot that no server knows: "sha256:" and the
+// nominal's digest.
 std::string LocalRevision(const v1::Nominal& nominal);
 
-// A calibration made from another robot file is a fault of `--robot`. One that a server made names a revision and
-// can't be told this way; convert compares what it needs.
+// A calibration made from another robot file is a fault of `--robot`. One that a server made names
+// a revision and can't be told this way; convert compares what it needs.
 absl::Status CheckBelongsTogether(const v1::Calibration& calibration, const v1::Nominal& nominal,
                                   const std::string& robot_path);
 

@@ -3,7 +3,8 @@
 
 namespace truepose::cli {
 
-// While one of these lives, the first SIGINT only sets a flag; the second ends the program as always. Not nested.
+// While one of these lives, the first SIGINT only sets a flag; the second ends the program as
+// always. Not nested.
 class InterruptScope {
  public:
   InterruptScope();

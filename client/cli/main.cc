@@ -33,6 +33,7 @@ bool LocaleIsUtf8() {
 int main(int argc, char** argv) {
   // A reader that goes away (`| head`) is a write error like any other.
   signal(SIGPIPE, SIG_IGN);
-  const truepose::cli::Console console{std::cout, std::cerr, isatty(STDERR_FILENO) != 0, WantsColour(), LocaleIsUtf8()};
+  const truepose::cli::Console console{std::cout, std::cerr, isatty(STDERR_FILENO) != 0,
+                                       WantsColour(), LocaleIsUtf8()};
   return truepose::cli::RunTruepose({argv + 1, argv + argc}, console);
 }

@@ -16,47 +16,47 @@
 namespace truepose::cli {
 namespace {
 
-std::string WithCollection(std::string_view collection, std::string_view typed) {
+std::string WithCollection(absl::string_view collection, absl::string_view typed) {
   if (typed.empty() || absl::StartsWith(typed, collection)) return std::string(typed);
   return absl::StrCat(collection, typed);
 }
 
-bool IsNumber(std::string_view text) {
+bool IsNumber(absl::string_view text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), absl::ascii_isdigit);
 }
 
-bool IsCalibrationName(std::string_view name) {
-  const std::vector<std::string_view> parts = absl::StrSplit(name, '/');
+bool IsCalibrationName(absl::string_view name) {
+  const std::vector<absl::string_view> parts = absl::StrSplit(name, '/');
   return parts.size() == 4 && parts[0] == "robots" && !parts[1].empty() &&
          parts[2] == "calibrations" && IsNumber(parts[3]);
 }
 
 }  // namespace
 
-std::string RobotName(std::string_view typed) { return WithCollection("robots/", typed); }
+std::string RobotName(absl::string_view typed) { return WithCollection("robots/", typed); }
 
-std::string SessionName(std::string_view typed) { return WithCollection("sessions/", typed); }
+std::string SessionName(absl::string_view typed) { return WithCollection("sessions/", typed); }
 
-std::string JobName(std::string_view typed) { return WithCollection("jobs/", typed); }
+std::string JobName(absl::string_view typed) { return WithCollection("jobs/", typed); }
 
-absl::StatusOr<std::string> CalibrationName(std::string_view typed) {
+absl::StatusOr<std::string> CalibrationName(absl::string_view typed) {
   if (IsCalibrationName(typed)) return std::string(typed);
-  const std::vector<std::string_view> parts = absl::StrSplit(typed, '#');
+  const std::vector<absl::string_view> parts = absl::StrSplit(typed, '#');
   const std::string name = absl::StrCat(RobotName(parts[0]), "/calibrations/", parts.back());
   if (parts.size() == 2 && IsCalibrationName(name)) return name;
   return FaultStatus("--calibration", absl::StrCat("'", typed, "'"),
                      "a name such as ur10#1 or robots/ur10/calibrations/1");
 }
 
-std::string ShortName(std::string_view name) {
-  const std::vector<std::string_view> parts = absl::StrSplit(name, '/');
+std::string ShortName(absl::string_view name) {
+  const std::vector<absl::string_view> parts = absl::StrSplit(name, '/');
   if (IsCalibrationName(name)) return absl::StrCat(parts[1], "#", parts[3]);
   if (parts.size() == 2) return std::string(parts[1]);
   return std::string(name);
 }
 
-std::string RobotOf(std::string_view name) {
-  const std::vector<std::string_view> parts = absl::StrSplit(name, '/');
+std::string RobotOf(absl::string_view name) {
+  const std::vector<absl::string_view> parts = absl::StrSplit(name, '/');
   if (parts.size() < 2) return std::string(name);
   return absl::StrCat(parts[0], "/", parts[1]);
 }
@@ -67,8 +67,8 @@ std::string RandomUuid() {
   for (unsigned& word : words) word = random();
   words[1] = (words[1] & 0xFFFF0FFFu) | 0x00004000u;  // version 4
   words[2] = (words[2] & 0x3FFFFFFFu) | 0x80000000u;  // variant of RFC 4122
-  return absl::StrFormat("%08x-%04x-%04x-%04x-%04x%08x", words[0], words[1] >> 16, words[1] & 0xFFFFu,
-                         words[2] >> 16, words[2] & 0xFFFFu, words[3]);
+  return absl::StrFormat("%08x-%04x-%04x-%04x-%04x%08x", words[0], words[1] >> 16,
+                         words[1] & 0xFFFFu, words[2] >> 16, words[2] & 0xFFFFu, words[3]);
 }
 
 }  // namespace truepose::cli

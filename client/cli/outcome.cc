@@ -13,21 +13,23 @@ namespace {
 constexpr char kUsagePayload[] = "type.truepose/usage";
 
 // The same status with another code or message; an absl::Status can't be changed in place.
-absl::Status Copy(const absl::Status& status, absl::StatusCode code, std::string_view message) {
+absl::Status Copy(const absl::Status& status, absl::StatusCode code, absl::string_view message) {
   absl::Status copy(code, message);
-  status.ForEachPayload([&](absl::string_view type, const absl::Cord& payload) { copy.SetPayload(type, payload); });
+  status.ForEachPayload(
+      [&](absl::string_view type, const absl::Cord& payload) { copy.SetPayload(type, payload); });
   return copy;
 }
 
 }  // namespace
 
-absl::Status UsageError(std::string_view message) {
+absl::Status UsageError(absl::string_view message) {
   absl::Status status = absl::InvalidArgumentError(message);
   status.SetPayload(kUsagePayload, absl::Cord());
   return status;
 }
 
-absl::Status OptionFault(std::string_view option, std::string_view found, std::string_view expected) {
+absl::Status OptionFault(absl::string_view option, absl::string_view found,
+                         absl::string_view expected) {
   return FaultStatus(std::string(option), absl::StrCat("'", found, "'"), std::string(expected));
 }
 
@@ -36,7 +38,7 @@ absl::Status AsInputFault(const absl::Status& status) {
   return Copy(status, absl::StatusCode::kInvalidArgument, status.message());
 }
 
-absl::Status WithHint(const absl::Status& status, absl::StatusCode code, std::string_view hint) {
+absl::Status WithHint(const absl::Status& status, absl::StatusCode code, absl::string_view hint) {
   if (status.code() != code) return status;
   return Copy(status, code, absl::StrCat(status.message(), "\n", hint));
 }

@@ -24,7 +24,7 @@ bool IsDirectory(const std::string& path) {
   return stat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode);
 }
 
-bool WriteAll(int descriptor, std::string_view text) {
+bool WriteAll(int descriptor, absl::string_view text) {
   while (!text.empty()) {
     const ssize_t written = write(descriptor, text.data(), text.size());
     if (written < 0 && errno == EINTR) continue;
@@ -37,7 +37,8 @@ bool WriteAll(int descriptor, std::string_view text) {
 }  // namespace
 
 absl::StatusOr<OutputFile> OutputFile::Create(std::string path, std::string option) {
-  if (IsDirectory(path)) return FaultStatus(option, absl::StrCat(path, ", a folder"), "a file name");
+  if (IsDirectory(path))
+    return FaultStatus(option, absl::StrCat(path, ", a folder"), "a file name");
   const bool special = IsSpecialFile(path);
   const std::string temporary = special ? "" : absl::StrCat(path, ".partial.", getpid());
   const int flags = special ? O_WRONLY : O_WRONLY | O_CREAT | O_EXCL;
@@ -65,12 +66,13 @@ OutputFile::~OutputFile() {
   if (!temporary_.empty()) unlink(temporary_.c_str());
 }
 
-absl::Status OutputFile::FaultOf(std::string_view what) const {
+absl::Status OutputFile::FaultOf(absl::string_view what) const {
   return FaultStatus(option_, absl::StrCat(path_, " (", what, ")"), "a file that can be written");
 }
 
-absl::Status OutputFile::Commit(std::string_view text) {
-  // The destructor cleans up after each early return. Pipes can't be synchronised, which is no failure.
+absl::Status OutputFile::Commit(absl::string_view text) {
+  // The destructor cleans up after each early return. Pipes can't be synchronised, which is no
+  // failure.
   if (!WriteAll(descriptor_, text)) return FaultOf(std::strerror(errno));
   if (temporary_.empty()) return absl::OkStatus();
   if (fsync(descriptor_) != 0) return FaultOf(std::strerror(errno));

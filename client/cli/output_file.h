@@ -2,15 +2,15 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "absl/strings/string_view.h"
 
 namespace truepose::cli {
 
-// Writes beside the target and renames, so that a run that fails, or is killed, leaves an older file as it was.
-// Made before a long run, it also tells at once that the place can't be written to.
+// Writes beside the target and renames, so that a run that fails, or is killed, leaves an older
+// file as it was. Made before a long run, it also tells at once that the place can't be written to.
 class OutputFile {
  public:
   // @param option the option that named the file, for the fault: "--output".
@@ -23,11 +23,11 @@ class OutputFile {
   ~OutputFile();
 
   // Writes all of `text` and puts it in place. Once only. On failure nothing is left of it.
-  absl::Status Commit(std::string_view text);
+  absl::Status Commit(absl::string_view text);
 
  private:
   OutputFile(std::string path, std::string option, std::string temporary, int descriptor);
-  absl::Status FaultOf(std::string_view what) const;
+  absl::Status FaultOf(absl::string_view what) const;
 
   std::string path_;
   std::string option_;

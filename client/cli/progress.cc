@@ -29,11 +29,11 @@ ProgressBar::~ProgressBar() {
   if (!shown_.empty()) console_.err << kClearLine << std::flush;
 }
 
-void ProgressBar::Show(double fraction, std::string_view note) {
+void ProgressBar::Show(double fraction, absl::string_view note) {
   if (!console_.err_is_terminal) return;
   const double limited = std::isfinite(fraction) ? std::clamp(fraction, 0.0, 1.0) : 0.0;
-  const std::string line = absl::StrFormat("%s %s %3.0f %%  %s", label_, Drawing(limited, console_.utf8),
-                                           100.0 * limited, note);
+  const std::string line = absl::StrFormat("%s %s %3.0f %%  %s", label_,
+                                           Drawing(limited, console_.utf8), 100.0 * limited, note);
   if (line == shown_) return;
   shown_ = line;
   console_.err << kClearLine << line << std::flush;

@@ -34,7 +34,7 @@ std::vector<size_t> Table::Widths() const {
 }
 
 std::string Table::Line(const std::vector<std::string>& cells, const std::vector<size_t>& widths,
-                        std::string_view indent) const {
+                        absl::string_view indent) const {
   std::string line(indent);
   for (size_t i = 0; i < cells.size(); ++i) {
     absl::StrAppend(&line, i == 0 ? "" : kGap, Pad(cells[i], widths[i], columns_[i].align));
@@ -42,7 +42,7 @@ std::string Table::Line(const std::vector<std::string>& cells, const std::vector
   return absl::StrCat(absl::StripTrailingAsciiWhitespace(line), "\n");
 }
 
-std::string Table::Text(std::string_view indent) const {
+std::string Table::Text(absl::string_view indent) const {
   const std::vector<size_t> widths = Widths();
   std::vector<std::string> titles;
   for (const Column& column : columns_) titles.push_back(column.title);
@@ -51,7 +51,7 @@ std::string Table::Text(std::string_view indent) const {
   return text;
 }
 
-size_t DisplayWidth(std::string_view text) {
+size_t DisplayWidth(absl::string_view text) {
   // Continuation bytes of UTF-8 begin with the bits 10.
   return std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; });
 }
@@ -61,7 +61,7 @@ std::string Fixed(double value, int digits) {
   return absl::StrFormat("%.*f", digits, std::abs(value) < half_step ? 0.0 : value);
 }
 
-std::string Count(long long count, std::string_view noun) {
+std::string Count(long long count, absl::string_view noun) {
   return absl::StrCat(count, " ", noun, count == 1 ? "" : "s");
 }
 

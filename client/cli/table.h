@@ -2,8 +2,9 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
+
+#include "absl/strings/string_view.h"
 
 namespace truepose::cli {
 
@@ -25,24 +26,25 @@ class Table {
   bool empty() const { return rows_.empty(); }
 
   // Each line with `indent` before it; the titles first.
-  std::string Text(std::string_view indent = "") const;
+  std::string Text(absl::string_view indent = "") const;
 
  private:
   std::vector<size_t> Widths() const;
   std::string Line(const std::vector<std::string>& cells, const std::vector<size_t>& widths,
-                   std::string_view indent) const;
+                   absl::string_view indent) const;
 
   std::vector<Column> columns_;
   std::vector<std::vector<std::string>> rows_;
 };
 
-// Characters of UTF-8 text, which a terminal shows one cell wide (no East Asian text in our tables).
-size_t DisplayWidth(std::string_view text);
+// Characters of UTF-8 text, which a terminal shows one cell wide (no East Asian text in our
+// tables).
+size_t DisplayWidth(absl::string_view text);
 
 // "0.497": `digits` after the point, no "-0.000".
 std::string Fixed(double value, int digits);
 
 // "30 rows", "1 row".
-std::string Count(long long count, std::string_view noun);
+std::string Count(long long count, absl::string_view noun);
 
 }  // namespace truepose::cli

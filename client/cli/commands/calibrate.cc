@@ -1,0 +1,129 @@
+// truepose calibrate
+#include "client/cli/commands/calibrate.h"
+
+#include <memory>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "client/cli/commands/commands.h"
+#include "client/cli/inputs.h"
+#include "client/cli/json.h"
+#include "client/cli/outcome.h"
+#include "client/cli/reply.h"
+#include "client/cli/report.h"
+#include "core/base/status_macros.h"
+
+namespace truepose::cli {
+namespace {
+
+constexpr char kFooter[] =
+    R"(--split says which rows calibrate; the others are the control set. Rows count from 0.
+  even-odd                  even rows calibrate
+  first:N                   the first N
+  every:K                   rows 0, K, 2K...
+  spaced:N                  N rows, evenly spaced
+  random:SEED[:FRACTION]    FRACTION (0.5) of the rows, drawn with this seed
+  column:NAME=VALUE         all but the rows with this value
+
+Examples:
+  truepose calibrate --robot ur10 --session 5f0c2c1e-8a53-4f0e-9a51-6f1f0f1f7a11 --split even-odd
+  truepose calibrate --local --robot ur10.yaml --session series_C.csv --split even-odd
+  truepose calibrate --local --robot ur10.yaml --session a.csv --session b.csv --split spaced:100 \
+    --output ur10.calibration.json
+  truepose calibrate --local --robot arm.yaml --session points.csv --observe point --json)";
+
+absl::Status CheckUsage(const CalibrateOptions& options) {
+  if (options.local && options.no_wait)
+    return UsageError("--no-wait is for a server; leave it out with --local");
+  if (!options.local && !options.euler.empty()) {
+    return UsageError(
+        "--euler belongs to reading a file: give it to `truepose session import`, or use --local");
+  }
+  if (options.no_wait && !options.output.empty()) {
+    return UsageError("--output needs the result, for which --no-wait does not wait");
+  }
+  return absl::OkStatus();
+}
+
+absl::Status Calibrate(const Invocation& invocation, CalibrateOptions options) {
+  TRUEPOSE_RETURN_IF_ERROR(CheckUsage(options));
+  TRUEPOSE_ASSIGN_OR_RETURN(const v1::Observe observe, ParseObserve(options.observe));
+  options.calibration.set_observe(observe);
+  return options.local ? CalibrateLocally(invocation, options)
+                       : CalibrateOnServer(invocation, options);
+}
+
+// The texts and flags of the command line, which then go into the message.
+struct Parsed {
+  CalibrateOptions options;
+  std::string split, group, tool;
+  bool require_complete = false;
+  bool strict_limits = false;
+
+  CalibrateOptions Complete() const {
+    CalibrateOptions complete = options;
+    v1::CalibrationOptions& calibration = complete.calibration;
+    calibration.set_split(split);
+    calibration.set_group_column(group);
+    calibration.set_nominal_tool(tool);
+    calibration.set_require_complete(require_complete);
+    calibration.set_strict_limits(strict_limits);
+    return complete;
+  }
+};
+
+}  // namespace
+
+std::string StageText(const v1::JobProgress& progress) {
+  if (progress.stage() != "identification") return progress.stage();
+  return absl::StrCat(progress.stage(), ", iteration ", progress.iteration());
+}
+
+absl::StatusOr<std::optional<OutputFile>> OpenOutput(const CalibrateOptions& options) {
+  if (options.output.empty()) return std::optional<OutputFile>();
+  TRUEPOSE_ASSIGN_OR_RETURN(OutputFile file, OutputFile::Create(options.output, "--output"));
+  return std::optional<OutputFile>(std::move(file));
+}
+
+absl::Status Deliver(const Invocation& invocation, const v1::Calibration& calibration,
+                     std::optional<OutputFile> output, const std::string& next_step) {
+  if (output.has_value()) {
+    TRUEPOSE_ASSIGN_OR_RETURN(const std::string json, ToJson(calibration, /*pretty=*/true));
+    TRUEPOSE_RETURN_IF_ERROR(output->Commit(json));
+  }
+  return Reply(invocation, calibration.report(), [&] {
+    return absl::StrCat(CalibrationText(calibration, invocation.console), "Next: ", next_step,
+                        "\n");
+  });
+}
+
+void AddCalibrate(const Command& root) {
+  const auto parsed = std::make_shared<Parsed>();
+  CalibrateOptions& options = parsed->options;
+  root.Add("calibrate", "Identify a robot's parameters from sessions")
+      .Option("--local", "", &options.local, "Compute here, from files, without a server")
+      .Required("--robot", "NAME|FILE", &options.robot,
+                "Robot on the server; with --local a robot file")
+      .Required("--session", "UUID|FILE", &options.sessions,
+                "Sealed sessions; with --local session files")
+      .Option("--split", "SPEC", &parsed->split, "Which rows calibrate (below); default: all")
+      .Option("--group", "COLUMN", &parsed->group,
+              "Never separate rows with equal values of this column")
+      .Option("--observe", "KIND", &options.observe,
+              "Use only the pose, point or point_axis; default: all there is")
+      .Option("--tool", "NAME", &parsed->tool, "Tool of the robot file that the target is near to")
+      .Option("--require-complete", "", &parsed->require_complete,
+              "Parameters that can't be told apart are an error")
+      .Option("--strict-limits", "", &parsed->strict_limits, "A joint beyond its limit is an error")
+      .Option("--euler", "CONVENTION", &options.euler,
+              "With --local: read rx_,ry_,rz_ columns, such as xyz-intrinsic")
+      .Option("--output", "FILE", &options.output,
+              "Also write the calibration as JSON, for --local commands")
+      .Option("--no-wait", "", &options.no_wait, "Print the job and do not wait for it")
+      .Footer(kFooter)
+      .Run(Command::Reach::kRemote, [parsed](const Invocation& invocation) {
+        return Calibrate(invocation, parsed->Complete());
+      });
+}
+
+}  // namespace truepose::cli

@@ -1,0 +1,22 @@
+// One function a command: it describes the command's options and examples, and says what runs.
+#pragma once
+
+#include "client/cli/command_line.h"
+
+namespace truepose::cli {
+
+void AddAllCommands(const Command& root);
+
+void AddServe(const Command& root);
+void AddRobot(const Command& root);
+void AddSession(const Command& root);
+void AddSessionImport(const Command& session);
+void AddCalibrate(const Command& root);
+void AddEvaluate(const Command& root);
+void AddCompensate(const Command& root);
+void AddJob(const Command& root);
+void AddCalibration(const Command& root);
+void AddSimulate(const Command& root);
+void AddVersion(const Command& root);
+
+}  // namespace truepose::cli

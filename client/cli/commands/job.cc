@@ -1,0 +1,113 @@
+// truepose job watch|list|cancel
+#include <memory>
+
+#include "absl/strings/ascii.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "client/cli/commands/commands.h"
+#include "client/cli/commands/wait.h"
+#include "client/cli/names.h"
+#include "client/cli/remote.h"
+#include "client/cli/reply.h"
+#include "client/cli/report.h"
+#include "client/cli/table.h"
+#include "client/pager.h"
+#include "core/base/status_macros.h"
+
+namespace truepose::cli {
+namespace {
+
+std::string StateText(const v1::CalibrationJob& job) {
+  return absl::AsciiStrToLower(v1::JobState_Name(job.state()));
+}
+
+std::string JobText(const v1::CalibrationJob& job) {
+  std::string text = absl::StrCat("Job ", ShortName(job.name()), " of ", ShortName(job.robot()),
+                                  ": ", StateText(job));
+  if (job.cancel_requested() && job.state() == v1::RUNNING)
+    absl::StrAppend(&text, ", cancel requested");
+  if (job.calibration().empty()) return absl::StrCat(text, "\n");
+  const std::string calibration = ShortName(job.calibration());
+  return absl::StrCat(text, ", calibration ", calibration, "\nNext: truepose calibration show ",
+                      calibration, "\n");
+}
+
+// The exit code tells how the job ended, also when it ended long ago.
+absl::Status Watch(const Invocation& invocation, const std::string& name) {
+  return WithServer(invocation, kJobHint, [&](const client::Client& client) -> absl::Status {
+    TRUEPOSE_ASSIGN_OR_RETURN(const v1::CalibrationJob job,
+                              WaitWithProgress(invocation, client, JobName(name)));
+    TRUEPOSE_RETURN_IF_ERROR(StatusOfJob(job));
+    return Reply(invocation, job, [&] { return JobText(job); });
+  });
+}
+
+std::string JobsTable(const v1::ListCalibrationJobsResponse& list) {
+  if (list.jobs().empty()) return "No jobs. Next: truepose calibrate --robot NAME --session UUID\n";
+  Table table({{"job", Align::kLeft},
+               {"robot", Align::kLeft},
+               {"state", Align::kLeft},
+               {"done"},
+               {"calibration", Align::kLeft},
+               {"created", Align::kLeft}});
+  for (const v1::CalibrationJob& job : list.jobs()) {
+    const double fraction = job.state() == v1::SUCCEEDED ? 1.0 : job.progress().fraction();
+    table.Add({ShortName(job.name()), ShortName(job.robot()), StateText(job),
+               absl::StrFormat("%.0f %%", 100.0 * fraction), ShortName(job.calibration()),
+               TimeText(job.create_time())});
+  }
+  return table.Text();
+}
+
+absl::Status List(const Invocation& invocation, const std::string& robot) {
+  return WithServer(invocation, kRobotHint, [&](const client::Client& client) -> absl::Status {
+    v1::ListCalibrationJobsRequest first;
+    first.set_robot(RobotName(robot));
+    v1::ListCalibrationJobsResponse all;
+    TRUEPOSE_RETURN_IF_ERROR(client::ForEachPage(
+        first, [&](const auto& request) { return client.ListCalibrationJobs(request); },
+        [&](const v1::ListCalibrationJobsResponse& page) {
+          all.MergeFrom(page);
+          return absl::OkStatus();
+        }));
+    all.clear_next_page_token();
+    return Reply(invocation, all, [&] { return JobsTable(all); });
+  });
+}
+
+absl::Status Cancel(const Invocation& invocation, const std::string& name) {
+  return WithServer(invocation, kJobHint, [&](const client::Client& client) -> absl::Status {
+    v1::CancelCalibrationJobRequest request;
+    request.set_name(JobName(name));
+    TRUEPOSE_ASSIGN_OR_RETURN(const v1::CalibrationJob job, client.CancelCalibrationJob(request));
+    return Reply(invocation, job, [&] { return JobText(job); });
+  });
+}
+
+void AddOne(const Command& job, const std::string& verb, const std::string& summary,
+            absl::Status (*act)(const Invocation&, const std::string&)) {
+  const auto name = std::make_shared<std::string>();
+  job.Add(verb, summary)
+      .Required("JOB", "", name.get(), "UUID")
+      .Footer(
+          absl::StrCat("Example:\n  truepose job ", verb, " 0d5a9e1c-52a8-4d6c-8f0a-3a1f1a6a8f11"))
+      .Run(Command::Reach::kRemote,
+           [=](const Invocation& invocation) { return act(invocation, *name); });
+}
+
+}  // namespace
+
+void AddJob(const Command& root) {
+  const Command job = root.Add("job", "Calibration jobs on the server");
+  job.Footer("Example:\n  truepose job list --robot ur10");
+  AddOne(job, "watch", "Wait for a job; its end is the exit code", Watch);
+  AddOne(job, "cancel", "End a job", Cancel);
+  const auto robot = std::make_shared<std::string>();
+  job.Add("list", "List the jobs")
+      .Option("--robot", "NAME", robot.get(), "Only of this robot")
+      .Footer("Examples:\n  truepose job list\n  truepose job list --robot ur10 --json")
+      .Run(Command::Reach::kRemote,
+           [robot](const Invocation& invocation) { return List(invocation, *robot); });
+}
+
+}  // namespace truepose::cli

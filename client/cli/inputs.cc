@@ -1,0 +1,105 @@
+#include "client/cli/inputs.h"
+
+#include <utility>
+
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+#include "client/cli/json.h"
+#include "client/cli/outcome.h"
+#include "convert/run.h"
+#include "core/base/fault.h"
+#include "core/base/status_macros.h"
+#include "formats/session_file.h"
+#include "formats/text_file.h"
+
+namespace truepose::cli {
+namespace {
+
+constexpr char kLocalPrefix[] = "sha256:";
+// A calibration with the residuals of a million rows is about 200 MB of JSON.
+constexpr size_t kMostCalibrationBytes = 1'000'000'000;
+
+absl::StatusOr<v1::SessionInput> LoadSession(const std::string& path, const v1::Nominal& nominal,
+                                             const std::string& euler, const Console& console) {
+  TRUEPOSE_ASSIGN_OR_RETURN(formats::SessionFile file,
+                            formats::ReadSessionFile(path, nominal, {euler}));
+  for (const std::string& warning : file.warnings) Warn(console, warning);
+  v1::SessionInput input;
+  *input.mutable_session() = std::move(file.session);
+  input.mutable_session()->set_name(path);
+  input.mutable_session()->set_reading_count(static_cast<int>(file.readings.size()));
+  for (v1::Reading& reading : file.readings) *input.add_readings() = std::move(reading);
+  return input;
+}
+
+}  // namespace
+
+absl::StatusOr<formats::RobotFile> LoadRobot(const std::string& path) {
+  absl::StatusOr<formats::RobotFile> file = formats::ReadRobotFile(path);
+  if (!file.ok()) return AsInputFault(file.status());
+  TRUEPOSE_RETURN_IF_ERROR(
+      formats::LocateFaults(convert::ValidateNominal(file->nominal), file->lines));
+  return file;
+}
+
+absl::StatusOr<std::vector<v1::SessionInput>> LoadSessions(const std::vector<std::string>& paths,
+                                                           const v1::Nominal& nominal,
+                                                           const std::string& euler,
+                                                           const Console& console) {
+  std::vector<v1::SessionInput> sessions;
+  FaultList faults;
+  for (const std::string& path : paths) {
+    absl::StatusOr<v1::SessionInput> session = LoadSession(path, nominal, euler, console);
+    faults.AddAll(session.status());
+    if (session.ok()) sessions.push_back(*std::move(session));
+  }
+  if (!faults.empty()) return faults.ToStatus();
+  return sessions;
+}
+
+absl::Status CheckLimits(const v1::Nominal& nominal, const v1::SessionInput& session, bool strict,
+                         const Console& console) {
+  FaultList faults;
+  const std::vector<v1::Reading> readings(session.readings().begin(), session.readings().end());
+  for (const std::string& warning : convert::LimitWarnings(nominal, readings)) {
+    if (strict)
+      faults.Add(session.session().name(), warning, "joints within the limits of the robot file");
+    if (!strict) Warn(console, absl::StrCat(session.session().name(), ": ", warning));
+  }
+  return faults.ToStatus();
+}
+
+absl::StatusOr<v1::Calibration> LoadCalibration(const std::string& path) {
+  const absl::StatusOr<std::string> text = formats::ReadTextFile(path, kMostCalibrationBytes);
+  if (!text.ok()) return AsInputFault(text.status());
+  v1::Calibration calibration;
+  TRUEPOSE_RETURN_IF_ERROR(FromJson(*text, path, &calibration));
+  if (calibration.internal_parameters().empty()) {
+    return FaultStatus(absl::StrCat(path, ": internal_parameters"), "none",
+                       "a file that `truepose calibrate --output` wrote");
+  }
+  return calibration;
+}
+
+absl::StatusOr<v1::Observe> ParseObserve(const std::string& text) {
+  if (text.empty()) return v1::OBSERVE_UNSPECIFIED;
+  if (text == "pose") return v1::POSE;
+  if (text == "point") return v1::POINT;
+  if (text == "point_axis") return v1::POINT_AXIS;
+  return OptionFault("--observe", text, "pose, point or point_axis");
+}
+
+std::string LocalRevision(const v1::Nominal& nominal) {
+  return absl::StrCat(kLocalPrefix, convert::NominalDigest(nominal));
+}
+
+absl::Status CheckBelongsTogether(const v1::Calibration& calibration, const v1::Nominal& nominal,
+                                  const std::string& robot_path) {
+  const std::string& made_from = calibration.nominal_revision();
+  if (!absl::StartsWith(made_from, kLocalPrefix) || made_from == LocalRevision(nominal))
+    return absl::OkStatus();
+  return FaultStatus("--robot", absl::StrCat(robot_path, " with nominal ", LocalRevision(nominal)),
+                     absl::StrCat("the robot that was calibrated, ", made_from));
+}
+
+}  // namespace truepose::cli
