@@ -1,4 +1,5 @@
-// What trueposed tells the shell (docs/operations.md). client/exit_codes.h has the same numbers, and a test holds them equal.
+// What trueposed tells the shell (docs/operations.md). client/exit_codes.h has the same numbers,
+// and a test holds them equal.
 #pragma once
 
 namespace truepose::server {

@@ -1,0 +1,34 @@
+#include "server/calibration_runner.h"
+
+#include "absl/time/clock.h"
+#include "convert/run.h"
+#include "server/rpc/guard.h"
+
+namespace truepose::server {
+namespace {
+
+// Outside of the result's digest: it says where and how fast, not what.
+void SetProvenance(absl::Duration elapsed, v1::Calibration& calibration) {
+  v1::Provenance& provenance = *calibration.mutable_provenance();
+  provenance.set_version(TRUEPOSE_VERSION);
+  provenance.set_dispatch("baseline");
+  provenance.set_threads(1);
+  provenance.set_seconds(absl::ToDoubleSeconds(elapsed));
+}
+
+absl::StatusOr<v1::Calibration> Run(const v1::CalibrationInput& input,
+                                    const jobs::RunnerHooks& hooks) {
+  const absl::Time start = absl::Now();
+  absl::StatusOr<v1::Calibration> calibration = rpc::Guarded([&] {
+    return convert::RunCalibration(
+        input, {.on_progress = hooks.on_progress, .is_cancelled = hooks.is_cancelled});
+  });
+  if (calibration.ok()) SetProvenance(absl::Now() - start, *calibration);
+  return calibration;
+}
+
+}  // namespace
+
+jobs::Runner CalibrationRunner() { return Run; }
+
+}  // namespace truepose::server

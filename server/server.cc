@@ -1,0 +1,88 @@
+#include "server/server.h"
+
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "core/base/status_macros.h"
+#include "server/jobs/engine.h"
+#include "server/listen_address.h"
+#include "server/rpc/drain.h"
+#include "server/rpc/executor.h"
+#include "server/rpc/listener.h"
+#include "server/services/bindings/bindings.h"
+#include "server/store/store.h"
+
+namespace truepose::server {
+namespace {
+
+// Calls that may wait for a thread; a client hears of more at once instead of waiting in vain.
+constexpr size_t kMostWaitingCalls = 1'000;
+
+std::string ToGrpc(const ListenAddress& address) {
+  if (!address.unix_path.empty()) return absl::StrCat("unix:", address.unix_path);
+  if (address.host == "::1") return absl::StrCat("[::1]:", address.port);
+  return absl::StrCat(address.host == "localhost" ? "127.0.0.1" : address.host, ":", address.port);
+}
+
+jobs::EngineOptions ToEngineOptions(const ServerOptions& options) {
+  jobs::EngineOptions engine;
+  engine.workers = options.workers;
+  return engine;
+}
+
+}  // namespace
+
+// Members are destroyed in reverse: the listener first, the store last.
+struct Server::Parts {
+  Parts(const ServerOptions& server_options, std::unique_ptr<store::Store> opened,
+        jobs::Runner runner)
+      : options(server_options),
+        store(std::move(opened)),
+        engine(*store, std::move(runner), ToEngineOptions(options)),
+        handlers(options.handler_threads, kMostWaitingCalls),
+        compute(options.compute_threads, kMostWaitingCalls),
+        services(services::BindServices({*store, engine}, {handlers, compute}, drain)) {}
+
+  const ServerOptions options;
+  const std::unique_ptr<store::Store> store;
+  jobs::JobEngine engine;
+  rpc::Drain drain;
+  rpc::Executor handlers, compute;
+  const std::vector<std::unique_ptr<grpc::Service>> services;
+  std::unique_ptr<rpc::Listener> listener;
+  bool stopped = false;
+};
+
+absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerOptions& options,
+                                                      jobs::Runner runner) {
+  TRUEPOSE_RETURN_IF_ERROR(options.Validate());
+  TRUEPOSE_ASSIGN_OR_RETURN(const ListenAddress address, ParseListenAddress(options.listen));
+  TRUEPOSE_RETURN_IF_ERROR(CheckFree(address));
+  TRUEPOSE_ASSIGN_OR_RETURN(auto store, store::Store::Open({.path = options.database}));
+  auto parts = std::make_unique<Parts>(options, std::move(store), std::move(runner));
+  TRUEPOSE_RETURN_IF_ERROR(parts->engine.Start());
+  TRUEPOSE_ASSIGN_OR_RETURN(parts->listener,
+                            rpc::Listener::Start(parts->services, ToGrpc(address)));
+  return std::unique_ptr<Server>(new Server(std::move(parts)));
+}
+
+Server::Server(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+
+Server::~Server() { Stop(); }
+
+const std::string& Server::address() const { return parts_->listener->address(); }
+
+std::shared_ptr<grpc::Channel> Server::InProcessChannel(const grpc::ChannelArguments& arguments) {
+  return parts_->listener->InProcessChannel(arguments);
+}
+
+void Server::Stop() {
+  if (std::exchange(parts_->stopped, true)) return;
+  parts_->listener->StopServing();
+  parts_->drain.Begin();
+  parts_->listener->Shutdown(parts_->options.drain);
+  parts_->engine.Stop();
+}
+
+}  // namespace truepose::server

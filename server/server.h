@@ -1,0 +1,47 @@
+// The composition root: store, job engine, services and listener, built in this order and taken
+// down in reverse.
+//
+//   Start: address free? -> store -> engine -> executors -> services -> listener
+//   Stop:  NOT_SERVING -> streams end, calls get `drain` -> engine stops, its jobs go back to
+//   PENDING -> store closes
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "grpcpp/channel.h"
+#include "grpcpp/support/channel_arguments.h"
+#include "server/jobs/runner.h"
+#include "server/server_options.h"
+
+namespace truepose::server {
+
+class Server {
+ public:
+  // Serves when it returns. Jobs that an earlier server left behind are taken up.
+  // @param runner what jobs run; calibration_runner.h makes the real one.
+  // @returns kInvalidArgument for options; kUnavailable when the address is taken; the store's
+  // status when the database
+  //   can't be used (server/store/store.h). On failure nothing is left behind.
+  static absl::StatusOr<std::unique_ptr<Server>> Start(const ServerOptions& options,
+                                                       jobs::Runner runner);
+  // Stop().
+  ~Server();
+
+  // As clients write it, with the port that was taken.
+  const std::string& address() const;
+  std::shared_ptr<grpc::Channel> InProcessChannel(const grpc::ChannelArguments& arguments);
+
+  // Drains and closes, at most `drain` longer than the job that is asked to end takes. May be
+  // called again.
+  void Stop();
+
+ private:
+  struct Parts;
+  explicit Server(std::unique_ptr<Parts> parts);
+
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace truepose::server

@@ -1,0 +1,25 @@
+// What a server is started with.
+#pragma once
+
+#include <string>
+
+#include "absl/status/status.h"
+#include "absl/time/time.h"
+
+namespace truepose::server {
+
+struct ServerOptions {
+  std::string listen =
+      "127.0.0.1:7878";  // loopback host:port (port 0: any that is free), or unix:path
+  std::string database = "truepose.db";  // a file, or ":memory:"
+  int workers = 1;                       // calibration jobs that run at once, 1 to 64
+  int handler_threads = 8;  // calls that are handled at once; they mostly wait for the store
+  int compute_threads = 2;  // evaluations and compensations at once
+  absl::Duration drain =
+      absl::Seconds(10);  // what calls under way get at the end before they are cut
+
+  // Every fault at once, with the option's name as field.
+  absl::Status Validate() const;
+};
+
+}  // namespace truepose::server

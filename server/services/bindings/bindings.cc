@@ -1,0 +1,17 @@
+#include "server/services/bindings/bindings.h"
+
+#include "server/services/bindings/binding.h"
+
+namespace truepose::services {
+
+std::vector<std::unique_ptr<grpc::Service>> BindServices(const CallContext& call,
+                                                         const Executors& executors,
+                                                         rpc::Drain& drain) {
+  std::vector<std::unique_ptr<grpc::Service>> services;
+  services.push_back(BindRobotService(call, executors));
+  services.push_back(BindSessionService(call, executors, drain));
+  services.push_back(BindCalibrationService(call, executors, drain));
+  return services;
+}
+
+}  // namespace truepose::services

@@ -1,0 +1,26 @@
+// The generated service classes bound to the plain handlers: one line an RPC, nothing else.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "grpcpp/impl/codegen/service_type.h"
+#include "server/rpc/drain.h"
+#include "server/rpc/executor.h"
+#include "server/services/call_context.h"
+
+namespace truepose::services {
+
+// Where handlers run. They wait for the store, so they are more than the cores; what computes has
+// threads of its own, so that a long evaluation never holds up an upload.
+struct Executors {
+  rpc::Executor& handlers;
+  rpc::Executor& compute;
+};
+
+// All services of a server. What is referred to outlives them.
+std::vector<std::unique_ptr<grpc::Service>> BindServices(const CallContext& call,
+                                                         const Executors& executors,
+                                                         rpc::Drain& drain);
+
+}  // namespace truepose::services

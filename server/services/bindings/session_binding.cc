@@ -1,0 +1,45 @@
+#include "server/rpc/ack_stream.h"
+#include "server/services/bindings/binding.h"
+#include "server/services/sessions.h"
+#include "truepose/v1/services.grpc.pb.h"
+
+namespace truepose::services {
+namespace {
+
+class SessionBinding final : public v1::SessionService::CallbackService {
+ public:
+  SessionBinding(const CallContext& call, const Executors& executors, rpc::Drain& drain)
+      : call_(call), handlers_(executors.handlers), drain_(drain) {}
+
+  TRUEPOSE_BIND(CreateSession, CreateSessionRequest, Session, handlers_)
+  TRUEPOSE_BIND(GetSession, GetSessionRequest, Session, handlers_)
+  TRUEPOSE_BIND(ListSessions, ListSessionsRequest, ListSessionsResponse, handlers_)
+  TRUEPOSE_BIND(SealSession, SealSessionRequest, Session, handlers_)
+  TRUEPOSE_BIND(ListReadings, ListReadingsRequest, ListReadingsResponse, handlers_)
+
+  grpc::ServerBidiReactor<v1::AppendReadingsRequest, v1::AppendReadingsResponse>* AppendReadings(
+      grpc::CallbackServerContext* context) override {
+    using Stream = rpc::AckStream<v1::AppendReadingsRequest, v1::AppendReadingsResponse>;
+    const auto stream = Stream::Make(
+        handlers_, rpc::ErrorBytesOf(*context),
+        [this, state = std::make_shared<AppendState>()](const v1::AppendReadingsRequest& request) {
+          return services::AppendReadings(call_, *state, request);
+        });
+    drain_.Add(stream);
+    return stream.get();
+  }
+
+ private:
+  const CallContext call_;
+  rpc::Executor& handlers_;
+  rpc::Drain& drain_;
+};
+
+}  // namespace
+
+std::unique_ptr<grpc::Service> BindSessionService(const CallContext& call,
+                                                  const Executors& executors, rpc::Drain& drain) {
+  return std::make_unique<SessionBinding>(call, executors, drain);
+}
+
+}  // namespace truepose::services

@@ -1,0 +1,46 @@
+// The two shapes of closure that handlers share.
+#pragma once
+
+#include <utility>
+
+#include "absl/status/statusor.h"
+#include "google/protobuf/repeated_field.h"
+#include "server/store/page.h"
+#include "server/store/store.h"
+
+namespace truepose::services {
+
+// Writes, or with `validate_only` runs the same closure and rolls it back, so that both give the
+// same answer.
+template <typename Closure>
+auto WriteUnless(bool validate_only, store::Store& store, Closure closure)
+    -> std::invoke_result_t<Closure&, store::Transaction&> {
+  using Result = std::invoke_result_t<Closure&, store::Transaction&>;
+  if (!validate_only) return store.Write(std::move(closure));
+  Result result = absl::UnavailableError("the store is closing");
+  const absl::Status status = store.Write([&](store::Transaction& transaction) -> absl::Status {
+    result = closure(transaction);
+    if (!result.ok()) return result.status();
+    return absl::CancelledError("validate_only");  // rolls back
+  });
+  if (!absl::IsCancelled(status)) return status;
+  return result;
+}
+
+// The page_size and page_token of any List request.
+template <typename Request>
+store::PageRequest PageOf(const Request& request) {
+  return {request.page_size(), request.page_token()};
+}
+
+// A page into the fields of any List reply.
+template <typename T, typename Response>
+Response ToResponse(store::Page<T> page,
+                    google::protobuf::RepeatedPtrField<T>* (Response::*items)()) {
+  Response response;
+  for (T& item : page.items) *(response.*items)()->Add() = std::move(item);
+  response.set_next_page_token(std::move(page.next_page_token));
+  return response;
+}
+
+}  // namespace truepose::services

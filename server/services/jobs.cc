@@ -1,0 +1,135 @@
+#include "server/services/jobs.h"
+
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "convert/run.h"
+#include "core/base/fault.h"
+#include "core/base/status_macros.h"
+#include "server/services/closures.h"
+#include "server/store/jobs.h"
+#include "server/store/names.h"
+#include "server/store/robots.h"
+#include "server/store/sessions.h"
+
+namespace truepose::services {
+namespace {
+
+using store::Snapshot;
+using store::Transaction;
+
+absl::Status CheckSessionNames(const v1::CreateCalibrationJobRequest& request) {
+  FaultList faults;
+  if (request.sessions().empty()) faults.Add("sessions", "none", "at least one sealed session");
+  std::set<std::string> seen;
+  for (int i = 0; i < request.sessions_size(); ++i) {
+    const std::string field = absl::StrCat("sessions[", i, "]");
+    faults.AddAll(store::ParseSessionName(request.sessions(i), field).status());
+    if (!seen.insert(request.sessions(i)).second) {
+      faults.Add(field, absl::StrCat(request.sessions(i), " again"), "each session once");
+    }
+  }
+  return faults.ToStatus();
+}
+
+absl::Status CheckRequest(const v1::CreateCalibrationJobRequest& request) {
+  FaultList faults;
+  faults.AddAll(store::CheckUuid(request.job_id(), "job_id"));
+  faults.AddAll(store::ParseRobotName(request.robot(), "robot").status());
+  faults.AddAll(CheckSessionNames(request));
+  faults.AddAll(convert::ValidateOptions(request.options()), "options.");
+  return faults.ToStatus();
+}
+
+absl::StatusOr<std::vector<v1::Session>> SessionsOf(
+    Snapshot& snapshot, const v1::CreateCalibrationJobRequest& request) {
+  std::vector<v1::Session> sessions;
+  for (const std::string& name : request.sessions()) {
+    TRUEPOSE_ASSIGN_OR_RETURN(v1::Session session, store::GetSession(snapshot, name));
+    sessions.push_back(std::move(session));
+  }
+  return sessions;
+}
+
+// Every session that can't be calibrated as it stands, with what it is and what it should be.
+absl::Status CheckSessions(const std::vector<v1::Session>& sessions, const std::string& robot) {
+  FaultList faults;
+  for (size_t i = 0; i < sessions.size(); ++i) {
+    const v1::Session& session = sessions[i];
+    const std::string field = absl::StrCat("sessions[", i, "]");
+    const std::string& revision = sessions.front().nominal_revision();
+    if (session.robot() != robot) {
+      faults.Add(field, absl::StrCat(session.name(), " of ", session.robot()),
+                 absl::StrCat("a session of ", robot));
+    } else if (session.nominal_revision() != revision) {
+      faults.Add(field, absl::StrCat(session.name(), " of ", session.nominal_revision()),
+                 absl::StrCat("a session of ", revision, " as sessions[0]"));
+    }
+    if (session.state() != v1::SEALED) {
+      faults.Add(field, absl::StrCat(session.name(), " ", v1::SessionState_Name(session.state())),
+                 "SEALED");
+    }
+  }
+  return faults.ToStatus(absl::StatusCode::kFailedPrecondition);
+}
+
+// The job as it is to be stored: what was asked for, and what that means today.
+absl::StatusOr<v1::CalibrationJob> FreezeInput(Snapshot& snapshot,
+                                               const v1::CreateCalibrationJobRequest& request) {
+  TRUEPOSE_RETURN_IF_ERROR(store::GetRobot(snapshot, request.robot()).status());
+  TRUEPOSE_ASSIGN_OR_RETURN(const auto sessions, SessionsOf(snapshot, request));
+  TRUEPOSE_RETURN_IF_ERROR(CheckSessions(sessions, request.robot()));
+  const std::string& revision = sessions.front().nominal_revision();
+  TRUEPOSE_ASSIGN_OR_RETURN(const auto nominal, store::GetNominalRevision(snapshot, revision));
+  std::vector<std::string> digests;
+  for (const v1::Session& session : sessions) digests.push_back(session.digest());
+  v1::CalibrationJob job;
+  job.set_robot(request.robot());
+  *job.mutable_sessions() = request.sessions();
+  *job.mutable_options() = request.options();
+  job.set_nominal_revision(revision);
+  job.set_input_digest(convert::JobInputDigest(nominal.digest(), digests, request.options()));
+  return job;
+}
+
+}  // namespace
+
+absl::StatusOr<v1::CalibrationJob> CreateCalibrationJob(
+    const CallContext& call, const v1::CreateCalibrationJobRequest& request) {
+  TRUEPOSE_RETURN_IF_ERROR(CheckRequest(request));
+  auto job = call.store.Write([&](Transaction& transaction) -> absl::StatusOr<v1::CalibrationJob> {
+    TRUEPOSE_ASSIGN_OR_RETURN(const v1::CalibrationJob frozen, FreezeInput(transaction, request));
+    return store::CreateJob(transaction, request.job_id(), frozen);
+  });
+  if (job.ok()) call.engine.Wake();
+  return job;
+}
+
+absl::StatusOr<v1::CalibrationJob> GetCalibrationJob(const CallContext& call,
+                                                     const v1::GetCalibrationJobRequest& request) {
+  return call.engine.Get(request.name());
+}
+
+absl::StatusOr<v1::ListCalibrationJobsResponse> ListCalibrationJobs(
+    const CallContext& call, const v1::ListCalibrationJobsRequest& request) {
+  TRUEPOSE_ASSIGN_OR_RETURN(auto page, call.store.Read([&](Snapshot& snapshot) {
+    return store::ListJobs(snapshot, request.robot(), PageOf(request));
+  }));
+  return ToResponse(std::move(page), &v1::ListCalibrationJobsResponse::mutable_jobs);
+}
+
+absl::StatusOr<v1::CalibrationJob> CancelCalibrationJob(
+    const CallContext& call, const v1::CancelCalibrationJobRequest& request) {
+  return call.engine.Cancel(request.name());
+}
+
+absl::StatusOr<std::unique_ptr<jobs::Subscription>> WatchCalibrationJob(
+    const CallContext& call, const v1::WatchCalibrationJobRequest& request,
+    jobs::WatchCallbacks callbacks) {
+  return call.engine.Watch(request.name(), std::move(callbacks));
+}
+
+}  // namespace truepose::services

@@ -1,0 +1,33 @@
+// Handlers of CalibrationService that are about jobs (proto/truepose/v1/services.proto).
+// @returns kInvalidArgument with every fault of the request and its field path; kNotFound for a
+// name that is well
+//   formed and unknown; what store and engine say else. Nothing is stored on failure.
+#pragma once
+
+#include <memory>
+
+#include "absl/status/statusor.h"
+#include "server/jobs/watch.h"
+#include "server/services/call_context.h"
+#include "truepose/v1/services.pb.h"
+
+namespace truepose::services {
+
+// Freezes the input, stores the job and wakes a worker. The job uses the nominal revision of its
+// sessions.
+// @returns kFailedPrecondition with a fault for each session that is not sealed, is of another
+// robot, or was begun
+//   under another nominal revision than the first.
+absl::StatusOr<v1::CalibrationJob> CreateCalibrationJob(
+    const CallContext& call, const v1::CreateCalibrationJobRequest& request);
+absl::StatusOr<v1::CalibrationJob> GetCalibrationJob(const CallContext& call,
+                                                     const v1::GetCalibrationJobRequest& request);
+absl::StatusOr<v1::ListCalibrationJobsResponse> ListCalibrationJobs(
+    const CallContext& call, const v1::ListCalibrationJobsRequest& request);
+absl::StatusOr<v1::CalibrationJob> CancelCalibrationJob(
+    const CallContext& call, const v1::CancelCalibrationJobRequest& request);
+absl::StatusOr<std::unique_ptr<jobs::Subscription>> WatchCalibrationJob(
+    const CallContext& call, const v1::WatchCalibrationJobRequest& request,
+    jobs::WatchCallbacks callbacks);
+
+}  // namespace truepose::services
