@@ -16,11 +16,11 @@ constexpr char kPayloadType[] = "type.truepose/faults";
 // A file of the wrong kind has a fault in every cell; a person reads the first screens of them.
 constexpr size_t kMostFaults = 200;
 
-std::string Escape(std::string_view text) {
+std::string Escape(const std::string& text) {
   return absl::StrReplaceAll(text, {{"\\", "\\\\"}, {"\t", "\\t"}, {"\n", "\\n"}});
 }
 
-std::string Unescape(std::string_view text) {
+std::string Unescape(const std::string& text) {
   return absl::StrReplaceAll(text, {{"\\\\", "\\"}, {"\\t", "\t"}, {"\\n", "\n"}});
 }
 
@@ -28,7 +28,7 @@ std::string Encode(const Fault& fault) {
   return absl::StrCat(Escape(fault.field), "\t", Escape(fault.found), "\t", Escape(fault.expected));
 }
 
-Fault Decode(std::string_view line) {
+Fault Decode(absl::string_view line) {
   const std::vector<std::string> parts = absl::StrSplit(line, '\t');
   if (parts.size() != 3) return {};
   return {Unescape(parts[0]), Unescape(parts[1]), Unescape(parts[2])};
@@ -51,7 +51,7 @@ void FaultList::AddAll(const absl::Status& status, std::string_view prefix) {
   if (status.ok()) return;
   const std::vector<Fault> faults = FaultsOf(status);
   if (faults.empty()) Add(std::string(prefix), std::string(status.message()), "");
-  for (const Fault& fault : faults) Add(absl::StrCat(prefix, fault.field), fault.found, fault.expected);
+  for (const Fault& fault : faults) Add(std::string(prefix) + fault.field, fault.found, fault.expected);
 }
 
 absl::Status FaultList::ToStatus(absl::StatusCode code) const {
@@ -78,7 +78,8 @@ std::vector<Fault> FaultsOf(const absl::Status& status) {
   std::vector<Fault> faults;
   const auto payload = status.GetPayload(kPayloadType);
   if (!payload.has_value()) return faults;
-  for (const std::string& line : absl::StrSplit(std::string(*payload), '\n')) faults.push_back(Decode(line));
+  const std::string text(*payload);
+  for (absl::string_view line : absl::StrSplit(text, '\n')) faults.push_back(Decode(line));
   return faults;
 }
 

@@ -1,5 +1,6 @@
 #include "core/geometry/rotation.h"
 
+#include <Eigen/LU>
 #include <Eigen/SVD>
 
 namespace truepose {

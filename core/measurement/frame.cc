@@ -17,7 +17,7 @@ constexpr std::array<ElementaryTransform, kFrameParameters> kCorrections = {{
     {Motion::kRotation, Axis::kZ, 0, -1, 5},
 }};
 
-constexpr std::array<std::string_view, kFrameParameters> kNames = {"x", "y", "z", "rx", "ry", "rz"};
+constexpr std::array<const char*, kFrameParameters> kNames = {"x", "y", "z", "rx", "ry", "rz"};
 
 }  // namespace
 
@@ -34,7 +34,7 @@ Pose Corrected(const Pose& X, const double* d, FrameJacobian* J) {
 
 Parameter FrameParameter(ParameterGroup group, std::string_view label, int index) {
   const std::string frame = group == ParameterGroup::kBase ? "base" : "tool";
-  const std::string owner = label.empty() ? frame : absl::StrCat(frame, "[", label, "]");
+  const std::string owner = label.empty() ? frame : absl::StrCat(frame, "[", std::string(label), "]");
   return {absl::StrCat(owner, ".", kNames[index]), group, ParameterRole::kExternal, index >= 3};
 }
 

@@ -1,0 +1,80 @@
+#include "core/assessment/verdict.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "core/base/random.h"
+
+namespace truepose {
+namespace {
+
+constexpr int kDraws = 2000;
+
+int DroppedForReadings(const IdentifiableSet& set) {
+  return static_cast<int>(std::count_if(set.redundancies.begin(), set.redundancies.end(),
+                                        [](const NullRelation& relation) { return !relation.structural; }));
+}
+
+void JudgeControl(const std::vector<PoseError>& before, const std::vector<PoseError>& after, Verdict* verdict) {
+  const double ratio = PoseStatisticsOf(after).position_m.rms / std::max(PoseStatisticsOf(before).position_m.rms, 1e-12);
+  const auto [low, high] = BootstrapRatio(before, after);
+  verdict->reasons.push_back(absl::StrFormat(
+      "control RMS position after / before is %.3f, 95 %% interval %.3f to %.3f over %d rows", ratio, low, high,
+      before.size()));
+  if (!(high < 1)) {
+    verdict->decision = Decision::kDoNotApply;
+    verdict->reasons.push_back("an improvement on the control set is not proved");
+  }
+}
+
+}  // namespace
+
+const char* Name(Decision decision) {
+  switch (decision) {
+    case Decision::kApply: return "apply";
+    case Decision::kApplyWithinVolume: return "apply_within_volume";
+    case Decision::kDoNotApply: break;
+  }
+  return "do_not_apply";
+}
+
+Interval BootstrapRatio(const std::vector<PoseError>& before, const std::vector<PoseError>& after) {
+  Random random(1);
+  std::vector<double> ratios;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    double b = 0, a = 0;
+    for (size_t i = 0; i < before.size(); ++i) {
+      const size_t k = random.Below(before.size());
+      b += before[k].position_m * before[k].position_m;
+      a += after[k].position_m * after[k].position_m;
+    }
+    ratios.push_back(std::sqrt(a / std::max(b, 1e-24)));
+  }
+  std::sort(ratios.begin(), ratios.end());
+  return {ratios[kDraws / 40], ratios[kDraws - 1 - kDraws / 40]};
+}
+
+Verdict Judge(const Identification& identification, const std::vector<PoseError>& control_before,
+              const std::vector<PoseError>& control_after) {
+  Verdict verdict;
+  verdict.decision = Decision::kApply;
+  if (const int dropped = DroppedForReadings(identification.set); dropped > 0) {
+    verdict.decision = Decision::kApplyWithinVolume;
+    verdict.reasons.push_back(absl::StrCat(dropped, " parameters stayed nominal because these readings do not determine them"));
+  }
+  if (control_before.empty()) {
+    verdict.decision = Decision::kApplyWithinVolume;
+    verdict.reasons.push_back("there is no control set: nothing shows how far the result carries");
+  } else {
+    JudgeControl(control_before, control_after, &verdict);
+  }
+  if (identification.summary.termination != Termination::kConverged) {
+    verdict.decision = Decision::kDoNotApply;
+    verdict.reasons.push_back(absl::StrCat("identification ended with ", Name(identification.summary.termination)));
+  }
+  return verdict;
+}
+
+}  // namespace truepose

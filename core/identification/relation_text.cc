@@ -1,0 +1,67 @@
+#include <algorithm>
+#include <cmath>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "absl/strings/str_join.h"
+#include "core/identification/identifiability.h"
+
+namespace truepose {
+namespace {
+
+// A coefficient is unit of the dropped one by unit of the kept one; mm where one of the two is a length.
+std::string Term(const Parameter& dropped, const Parameter& kept, double c) {
+  if (dropped.is_angle == kept.is_angle) return absl::StrFormat("%+.6g %s", c, kept.name);
+  if (dropped.is_angle) return absl::StrFormat("%+.6g mm/rad %s", 1e3 * c, kept.name);
+  return absl::StrFormat("%+.6g rad/mm %s", 1e-3 * c, kept.name);
+}
+
+bool IsExternal(const ParameterSet& candidates, const std::pair<int, double>& term) {
+  return candidates[term.first].group != ParameterGroup::kInternal;
+}
+
+std::string FrameName(const Parameter& parameter) {
+  return parameter.name.substr(0, parameter.name.rfind('.')) + " frame";
+}
+
+// "a motion of the base frame", once for each frame that takes part.
+std::vector<std::string> FrameTerms(const NullRelation& relation, const ParameterSet& candidates) {
+  std::vector<std::string> names;
+  for (const auto& term : relation.kept) {
+    if (!IsExternal(candidates, term)) continue;
+    const std::string name = "a motion of the " + FrameName(candidates[term.first]);
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  return names;
+}
+
+}  // namespace
+
+std::string RelationText(const NullRelation& relation, const ParameterSet& candidates) {
+  const Parameter& dropped = candidates[relation.dropped];
+  if (relation.kept.empty()) return absl::StrCat(dropped.name, " = 0");
+  std::vector<std::string> terms = FrameTerms(relation, candidates);
+  for (const auto& term : relation.kept) {
+    if (!IsExternal(candidates, term)) terms.push_back(Term(dropped, candidates[term.first], term.second));
+  }
+  return absl::StrCat(dropped.name, " = ", absl::StrJoin(terms, " and "));
+}
+
+std::string ReasonText(const NullRelation& relation, const ParameterSet& candidates) {
+  const std::string& name = candidates[relation.dropped].name;
+  const std::string always = relation.structural ? "at any poses" : "at these poses";
+  if (relation.undetermined) {
+    return absl::StrCat(name, " is known too weakly from these readings; it stays at nominal");
+  }
+  if (relation.kept.empty()) return absl::StrCat(name, " does not show in this measurement ", always);
+  const std::vector<std::string> frames = FrameTerms(relation, candidates);
+  const bool only_frames =
+      std::all_of(relation.kept.begin(), relation.kept.end(), [&](const auto& t) { return IsExternal(candidates, t); });
+  if (only_frames) {
+    return absl::StrCat(name, " can't be told from ", absl::StrJoin(frames, " and "), " ", always,
+                        "; that frame takes it up");
+  }
+  return absl::StrCat(name, " can't be told from the parameters that it equals ", always, "; they take it up");
+}
+
+}  // namespace truepose
