@@ -7,7 +7,6 @@
 #pragma once
 
 #include <deque>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,9 +36,6 @@ struct CsvTable {
 // row with more or fewer cells than the header, no header; the rows that could be read are in the
 // table.
 CsvTable ParseCsv(std::string_view text, std::string_view file_name, FaultList& faults);
-
-// The number of a cell, finite; nullopt for anything else, `nan` and `inf` included.
-std::optional<double> ParseNumber(std::string_view cell, bool decimal_comma);
 
 // `cells` as one line with `,`, quoted where reading it back needs it, with a line end.
 std::string CsvLine(const std::vector<std::string>& cells);

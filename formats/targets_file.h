@@ -23,8 +23,9 @@ absl::StatusOr<std::vector<v1::CompensationTarget>> ParseTargetsFile(std::string
                                                                      const v1::Nominal& nominal);
 
 // CSV with one line a target: row, q1_rad..., x_mm,y_mm,z_mm,qx,qy,qz,qw, position_correction_mm,
-// rotation_correction_deg, residual_position_mm, fault. A target with a fault has empty joints and
-// pose; columns that no target fills are left out. Reads back as targets.
+// rotation_correction_deg, residual_position_mm, fault. Joints and quaternions are exact to the
+// bit, lengths have 1e-6 mm. A target with a fault has that and its row only; joint or pose columns
+// that no target fills are left out. Without faults the text reads back as targets.
 std::string WriteCompensatedTargets(const v1::Nominal& nominal,
                                     const v1::CompensateResponse& response);
 
