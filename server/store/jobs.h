@@ -1,4 +1,5 @@
-// Calibration jobs and their frozen input. Which state may follow which is decided above (server/jobs/job_state.h).
+// Calibration jobs and their frozen input. Which state may follow which is decided above
+// (server/jobs/job_state.h).
 #pragma once
 
 #include <cstdint>
@@ -14,11 +15,14 @@
 
 namespace truepose::store {
 
-// Stores a PENDING job and freezes its input in the same transaction: nominal revision, session names with their
-// digests, options and input digest. Of `job` are used: robot, sessions, options, nominal_revision, input_digest.
-// A repeat with the same robot and input digest returns the job as it is now; wake the engine after the commit.
-// @returns kInvalidArgument for names or no session; kNotFound for the robot, revision or a session; all faults at once with
-//   kFailedPrecondition for sessions that are not sealed or of another robot; kAlreadyExists for a job of other input.
+// Stores a PENDING job and freezes its input in the same transaction: nominal revision, session
+// names with their digests, options and input digest. Of `job` are used: robot, sessions, options,
+// nominal_revision, input_digest. A repeat with the same robot and input digest returns the job as
+// it is now; wake the engine after the commit.
+// @returns kInvalidArgument for names or no session; kNotFound for the robot, revision or a
+// session; all faults at once with
+//   kFailedPrecondition for sessions that are not sealed or of another robot; kAlreadyExists for a
+//   job of other input.
 absl::StatusOr<v1::CalibrationJob> CreateJob(Transaction& transaction, std::string_view job_id,
                                              const v1::CalibrationJob& job);
 absl::StatusOr<v1::CalibrationJob> GetJob(Snapshot& snapshot, std::string_view name);
@@ -28,7 +32,8 @@ absl::StatusOr<Page<v1::CalibrationJob>> ListJobs(Snapshot& snapshot, std::strin
 
 // All that the job needs to run, as frozen at its creation.
 // @returns kDataLoss when a session isn't what was frozen.
-absl::StatusOr<v1::CalibrationInput> LoadJobInput(Snapshot& snapshot, const v1::CalibrationJob& job);
+absl::StatusOr<v1::CalibrationInput> LoadJobInput(Snapshot& snapshot,
+                                                  const v1::CalibrationJob& job);
 
 // A worker's right to end a job: the revision at which it was claimed; 0 = nobody's.
 using Lease = int64_t;

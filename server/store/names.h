@@ -1,5 +1,6 @@
 // Names of resources as the store keys them.
-//   robots/{robot}  robots/{robot}/nominals/{number}  robots/{robot}/calibrations/{number}  sessions/{id}  jobs/{id}
+//   robots/{robot}  robots/{robot}/nominals/{number}  robots/{robot}/calibrations/{number}
+//   sessions/{id}  jobs/{id}
 // Parsing checks the form only; @returns kInvalidArgument with a fault whose field is `field`.
 #pragma once
 
@@ -25,12 +26,16 @@ std::string NominalName(std::string_view robot_id, int64_t number);
 std::string CalibrationName(std::string_view robot_id, int64_t number);
 
 absl::StatusOr<std::string> ParseRobotName(std::string_view name, std::string_view field = "name");
-absl::StatusOr<std::string> ParseSessionName(std::string_view name, std::string_view field = "name");
+absl::StatusOr<std::string> ParseSessionName(std::string_view name,
+                                             std::string_view field = "name");
 absl::StatusOr<std::string> ParseJobName(std::string_view name, std::string_view field = "name");
-absl::StatusOr<NumberedName> ParseNominalName(std::string_view name, std::string_view field = "name");
-absl::StatusOr<NumberedName> ParseCalibrationName(std::string_view name, std::string_view field = "name");
+absl::StatusOr<NumberedName> ParseNominalName(std::string_view name,
+                                              std::string_view field = "name");
+absl::StatusOr<NumberedName> ParseCalibrationName(std::string_view name,
+                                                  std::string_view field = "name");
 
-// Faults of identifiers that a client chooses: robots [a-z0-9][a-z0-9-]{0,62}; sessions and jobs a lower-case UUID.
+// Faults of identifiers that a client chooses: robots [a-z0-9][a-z0-9-]{0,62}; sessions and jobs a
+// lower-case UUID.
 absl::Status CheckRobotId(std::string_view robot_id, std::string_view field);
 absl::Status CheckUuid(std::string_view id, std::string_view field);
 

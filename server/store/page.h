@@ -1,5 +1,5 @@
-// Pages of a list. A token is opaque, belongs to one list with one filter, and stays valid while things are added:
-// it names the last item that was returned, not a position.
+// Pages of a list. A token is opaque, belongs to one list with one filter, and stays valid while
+// things are added: it names the last item that was returned, not a position.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,8 @@
 namespace truepose::store {
 
 struct PageRequest {
-  int size = 0;       // 0 = the list's default; more than its maximum = the maximum; negative is kInvalidArgument
+  int size = 0;       // 0 = the list's default; more than its maximum = the maximum; negative is
+                      // kInvalidArgument
   std::string token;  // "" = from the start
 };
 
@@ -29,8 +30,8 @@ struct PageLimits {
 
 // What a token is bound to: the list's name and its filter, such as "jobs" and "ur10".
 struct ListId {
-  std::string_view list;
-  std::string_view filter;
+  std::string list;
+  std::string filter;
 };
 
 // A request after its checks: how many, and after which key ("" = from the start).
@@ -40,7 +41,8 @@ struct PageStart {
 };
 
 // @returns kInvalidArgument with every fault (fields `page_size`, `page_token`).
-absl::StatusOr<PageStart> CheckPage(const ListId& id, const PageRequest& request, const PageLimits& limits = {});
+absl::StatusOr<PageStart> CheckPage(const ListId& id, const PageRequest& request,
+                                    const PageLimits& limits = {});
 // The same for lists whose key is a number; `none` is returned for the first page.
 absl::StatusOr<int64_t> AfterNumber(const PageStart& start, int64_t none);
 

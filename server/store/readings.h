@@ -14,15 +14,17 @@ namespace truepose::store {
 
 // Appends a batch; a row that is stored with the same bytes is accepted again, also after sealing.
 // Nothing of a batch with a fault is stored; the faults name `readings[i].row`.
-// @returns the number of readings now stored; kNotFound; kOutOfRange with a fault for a gap before or within the
-//   batch; kAborted with a fault for each row that is stored with other bytes; kFailedPrecondition for new rows of a
-//   sealed session.
+// @returns the number of readings now stored; kNotFound; kOutOfRange with a fault for a gap before
+// or within the
+//   batch; kAborted with a fault for each row that is stored with other bytes; kFailedPrecondition
+//   for new rows of a sealed session.
 absl::StatusOr<int> AppendReadings(Transaction& transaction, std::string_view session_name,
                                    const google::protobuf::RepeatedPtrField<v1::Reading>& readings);
 
 // By row; 1000 a page, at most 10000.
 absl::StatusOr<Page<v1::Reading>> ListReadings(Snapshot& snapshot, std::string_view session_name,
                                                const PageRequest& request);
-absl::StatusOr<std::vector<v1::Reading>> AllReadings(Snapshot& snapshot, std::string_view session_name);
+absl::StatusOr<std::vector<v1::Reading>> AllReadings(Snapshot& snapshot,
+                                                     std::string_view session_name);
 
 }  // namespace truepose::store

@@ -1,4 +1,5 @@
-// Robots and their nominal revisions. Revisions are immutable and numbered from 1; a robot shows its latest.
+// Robots and their nominal revisions. Revisions are immutable and numbered from 1; a robot shows
+// its latest.
 #pragma once
 
 #include <string_view>
@@ -13,12 +14,14 @@ namespace truepose::store {
 // `digest` identifies the content of `nominal` (convert::NominalDigest).
 // A repeat with the digest of the first or the latest revision returns the robot as it is.
 // @returns kInvalidArgument for the id, kAlreadyExists for a robot with other content.
-absl::StatusOr<v1::Robot> CreateRobot(Transaction& transaction, std::string_view robot_id, const v1::Nominal& nominal,
-                                      std::string_view digest);
+absl::StatusOr<v1::Robot> CreateRobot(Transaction& transaction, std::string_view robot_id,
+                                      const v1::Nominal& nominal, std::string_view digest);
 // Adds a revision; the digest of the latest returns that one.
 // @returns kNotFound for an unknown robot.
-absl::StatusOr<v1::NominalRevision> AddNominalRevision(Transaction& transaction, std::string_view robot_name,
-                                                       const v1::Nominal& nominal, std::string_view digest);
+absl::StatusOr<v1::NominalRevision> AddNominalRevision(Transaction& transaction,
+                                                       std::string_view robot_name,
+                                                       const v1::Nominal& nominal,
+                                                       std::string_view digest);
 
 // @returns kInvalidArgument for a malformed name, kNotFound.
 absl::StatusOr<v1::Robot> GetRobot(Snapshot& snapshot, std::string_view name);
@@ -26,7 +29,8 @@ absl::StatusOr<v1::NominalRevision> GetNominalRevision(Snapshot& snapshot, std::
 
 // Robots by id; revisions newest first.
 absl::StatusOr<Page<v1::Robot>> ListRobots(Snapshot& snapshot, const PageRequest& request);
-absl::StatusOr<Page<v1::NominalRevision>> ListNominalRevisions(Snapshot& snapshot, std::string_view robot_name,
+absl::StatusOr<Page<v1::NominalRevision>> ListNominalRevisions(Snapshot& snapshot,
+                                                               std::string_view robot_name,
                                                                const PageRequest& request);
 
 }  // namespace truepose::store

@@ -10,21 +10,25 @@
 
 namespace truepose::store {
 
-// Stores an OPEN session for `session.robot`, with `session.nominal_revision` or, when empty, the robot's latest.
-// Of `session` also display_name, source and extra_columns are used. A repeat with the same values returns the session.
-// @returns kInvalidArgument for the id or names; kNotFound for the robot or revision; kAlreadyExists for a session
+// Stores an OPEN session for `session.robot`, with `session.nominal_revision` or, when empty, the
+// robot's latest. Of `session` also display_name, source and extra_columns are used. A repeat with
+// the same values returns the session.
+// @returns kInvalidArgument for the id or names; kNotFound for the robot or revision;
+// kAlreadyExists for a session
 //   with other values.
 absl::StatusOr<v1::Session> CreateSession(Transaction& transaction, std::string_view session_id,
                                           const v1::Session& session);
 absl::StatusOr<v1::Session> GetSession(Snapshot& snapshot, std::string_view name);
 // Newest first; `robot` = "" lists those of all robots.
-absl::StatusOr<Page<v1::Session>> ListSessions(Snapshot& snapshot, std::string_view robot, const PageRequest& request);
+absl::StatusOr<Page<v1::Session>> ListSessions(Snapshot& snapshot, std::string_view robot,
+                                               const PageRequest& request);
 
-// Closes a session for readings. `digest` is of all its readings (convert::ReadingsDigest). A repeat with the same
-// count and digest returns the session.
-// @returns kFailedPrecondition with a fault when `reading_count` isn't what is stored, when it has no readings, or
+// Closes a session for readings. `digest` is of all its readings (convert::ReadingsDigest). A
+// repeat with the same count and digest returns the session.
+// @returns kFailedPrecondition with a fault when `reading_count` isn't what is stored, when it has
+// no readings, or
 //   when it is sealed with another digest.
-absl::StatusOr<v1::Session> SealSession(Transaction& transaction, std::string_view name, int reading_count,
-                                        std::string_view digest);
+absl::StatusOr<v1::Session> SealSession(Transaction& transaction, std::string_view name,
+                                        int reading_count, std::string_view digest);
 
 }  // namespace truepose::store

@@ -1,9 +1,9 @@
 // The store of one server: a database, its one writer thread and its readers.
 //
-// Work is a closure over a Transaction or Snapshot that calls the repositories (robots.h, sessions.h, jobs.h,
-// calibrations.h). A closure must be free of side effects outside of the store: it may run more than once, on another
-// thread, and only the last run counts. It must not call Read or Write itself (kInternal).
-// All functions are safe from any thread.
+// Work is a closure over a Transaction or Snapshot that calls the repositories (robots.h,
+// sessions.h, jobs.h, calibrations.h). A closure must be free of side effects outside of the store:
+// it may run more than once, on another thread, and only the last run counts. It must not call Read
+// or Write itself (kInternal). All functions are safe from any thread.
 #pragma once
 
 #include <functional>
@@ -20,10 +20,10 @@
 namespace truepose::store {
 
 struct StoreOptions {
-  std::string path;              // a file, or ":memory:"
-  const Clock* clock = nullptr;  // not owned, outlives the store; nullptr = RealClock()
-  int readers = 4;               // connections beside the writer; 1 to 64
-  int max_group = 256;           // closures of one commit at most
+  std::string path;                          // a file, or ":memory:"
+  const Clock* clock = nullptr;              // not owned, outlives the store; nullptr = RealClock()
+  int readers = 4;                           // connections beside the writer; 1 to 64
+  int max_group = 256;                       // closures of one commit at most
   sql::Decorator decorate_writer = nullptr;  // around the writing connection, for fault injection
 
   // Every fault at once, with the option's name as field.
@@ -34,31 +34,35 @@ class Store {
  public:
   // Opens or creates the database and brings it up to the newest migration.
   // One server a database: `<path>.lock` is held while the store lives; it contains the process id.
-  // @returns kInvalidArgument for options; kNotFound when the directory doesn't exist; kFailedPrecondition when
-  //   another process holds the lock, the file is no database, one of another program, one of a newer version that
-  //   says it isn't compatible, one with a changed migration, or can't be written. Each with one fault (field = path).
-  //   On failure everything is as before: no file is created or kept.
+  // @returns kInvalidArgument for options; kNotFound when the directory doesn't exist;
+  // kFailedPrecondition when
+  //   another process holds the lock, the file is no database, one of another program, one of a
+  //   newer version that says it isn't compatible, one with a changed migration, or can't be
+  //   written. Each with one fault (field = path). On failure everything is as before: no file is
+  //   created or kept.
   static absl::StatusOr<std::unique_ptr<Store>> Open(StoreOptions options);
   // Waits for running closures; writes that are still queued end with kCancelled.
   ~Store();
 
-  // Runs `closure(Transaction&)`, which returns absl::Status or absl::StatusOr<T>, and returns its result after the
-  // commit. A closure that fails leaves nothing behind and doesn't disturb others of the same commit. A failed
-  // commit runs each closure again, alone.
+  // Runs `closure(Transaction&)`, which returns absl::Status or absl::StatusOr<T>, and returns its
+  // result after the commit. A closure that fails leaves nothing behind and doesn't disturb others
+  // of the same commit. A failed commit runs each closure again, alone.
   template <typename Closure>
   auto Write(Closure closure) -> std::invoke_result_t<Closure&, Transaction&> {
     return Collect<std::invoke_result_t<Closure&, Transaction&>, Transaction>(
         closure, [this](auto run) { return RunWrite(std::move(run)); });
   }
 
-  // Runs `closure(Snapshot&)` on one consistent state, beside the writer. Sees every write that has returned.
+  // Runs `closure(Snapshot&)` on one consistent state, beside the writer. Sees every write that has
+  // returned.
   template <typename Closure>
   auto Read(Closure closure) -> std::invoke_result_t<Closure&, Snapshot&> {
     return Collect<std::invoke_result_t<Closure&, Snapshot&>, Snapshot>(
         closure, [this](auto run) { return RunRead(std::move(run)); });
   }
 
-  // Random, made with the database: tells a client whether revisions of two answers can be compared.
+  // Random, made with the database: tells a client whether revisions of two answers can be
+  // compared.
   const std::string& epoch() const;
   // Revision of the last commit.
   absl::StatusOr<int64_t> Revision();

@@ -21,13 +21,15 @@ class Snapshot {
   sql::Connection& connection_;
 };
 
-// A snapshot that can be changed. What is written becomes visible and durable with the commit, or not at all.
+// A snapshot that can be changed. What is written becomes visible and durable with the commit, or
+// not at all.
 class Transaction : public Snapshot {
  public:
   Transaction(sql::Connection& connection, int64_t revision, absl::Time now)
       : Snapshot(connection), revision_(revision), now_(now) {}
 
-  // Revision that the commit will have, store-wide and monotonic; shared by the closures of one commit.
+  // Revision that the commit will have, store-wide and monotonic; shared by the closures of one
+  // commit.
   int64_t revision() const { return revision_; }
   // The one time of everything written here.
   absl::Time now() const { return now_; }

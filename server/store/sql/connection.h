@@ -1,10 +1,11 @@
 // The narrow seam to a database: everything the repositories need and nothing more.
 //
-// SQL that goes through it is portable: parameters are $1, $2, ...; types are 64-bit integer, double, text and blob.
-// Errors: kAlreadyExists for a key that is taken, kFailedPrecondition for another constraint, kResourceExhausted for a
-// full disk, kDataLoss for a damaged file, kAborted with IsRetryable() when the whole transaction may be run again,
-// kInternal otherwise.
-// A connection is used by one thread at a time; a statement must not outlive its connection.
+// SQL that goes through it is portable: parameters are $1, $2, ...; types are 64-bit integer,
+// double, text and blob. Errors: kAlreadyExists for a key that is taken, kFailedPrecondition for
+// another constraint, kResourceExhausted for a full disk, kUnavailable for a disk that fails,
+// kDataLoss for a damaged file, kAborted with IsRetryable() when the whole transaction may be run
+// again, kInternal otherwise. A connection is used by one thread at a time; a statement must not
+// outlive its connection.
 #pragma once
 
 #include <cstdint>
@@ -49,14 +50,14 @@ class Connection {
   virtual absl::StatusOr<std::unique_ptr<Statement>> Prepare(std::string_view sql) = 0;
   // Runs one or more statements that have neither parameters nor rows.
   virtual absl::Status Execute(std::string_view sql) = 0;
-  // Opens a transaction; prefer sql::Transaction. kWrite takes the write lock at once, so that it can't be lost later.
+  // Opens a transaction; prefer sql::Transaction. kWrite takes the write lock at once, so that it
+  // can't be lost later.
   virtual absl::Status Begin(Access access) = 0;
 
-  // Number of the last migration, kept by the database itself; 0 for an empty database. Part of the transaction.
+  // Number of the last migration, kept by the database itself; 0 for an empty database. Part of the
+  // transaction.
   virtual absl::StatusOr<int64_t> SchemaVersion() = 0;
   virtual absl::Status SetSchemaVersion(int64_t version) = 0;
-  // Whether there is no table at all.
-  virtual absl::StatusOr<bool> IsEmpty() = 0;
 };
 
 // Wraps a connection; tests inject faults through it.

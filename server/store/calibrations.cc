@@ -1,0 +1,99 @@
+#include "server/store/calibrations.h"
+
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "core/base/status_macros.h"
+#include "server/store/keys.h"
+#include "server/store/list.h"
+#include "server/store/message.h"
+#include "server/store/names.h"
+#include "server/store/robots.h"
+#include "server/store/sql/query.h"
+
+namespace truepose::store {
+namespace {
+
+// Splits off what lists leave out. Merging both gives the whole again.
+v1::Calibration TakeDetail(v1::Calibration& calibration) {
+  v1::Calibration detail;
+  detail.mutable_covariance()->Swap(calibration.mutable_covariance());
+  detail.mutable_residuals()->Swap(calibration.mutable_residuals());
+  return detail;
+}
+
+absl::StatusOr<int64_t> NextNumber(Snapshot& snapshot, const std::string& robot_id) {
+  return sql::QueryInt64(
+      snapshot.sql(), "SELECT COALESCE(MAX(number), 0) + 1 FROM calibrations WHERE robot_id = $1",
+      robot_id);
+}
+
+absl::Status Insert(Transaction& transaction, const NumberedName& name, Key job,
+                    v1::Calibration calibration) {
+  const v1::Calibration detail = TakeDetail(calibration);
+  const absl::Status status =
+      sql::Run(transaction.sql(),
+               "INSERT INTO calibrations (robot_id, number, job, message, detail) VALUES ($1, $2, "
+               "$3, $4, $5)",
+               name.robot_id, name.number, job, sql::BlobView{ToBlob(calibration)},
+               sql::BlobView{ToBlob(detail)});
+  if (!absl::IsAlreadyExists(status)) return status;
+  return Refusal(absl::StatusCode::kAlreadyExists, "job",
+                 absl::StrCat(calibration.job(), ", which has a calibration"), "a job without one");
+}
+
+}  // namespace
+
+absl::StatusOr<v1::Calibration> InsertCalibration(Transaction& transaction,
+                                                  const v1::CalibrationJob& job,
+                                                  const v1::Calibration& calibration) {
+  TRUEPOSE_ASSIGN_OR_RETURN(const Key key, JobKey(transaction, job.name(), "job"));
+  TRUEPOSE_ASSIGN_OR_RETURN(const std::string robot_id, ParseRobotName(job.robot(), "robot"));
+  TRUEPOSE_ASSIGN_OR_RETURN(const int64_t number, NextNumber(transaction, robot_id));
+  v1::Calibration stored = calibration;
+  stored.set_name(CalibrationName(robot_id, number));
+  stored.set_job(job.name());
+  *stored.mutable_options() = job.options();
+  *stored.mutable_create_time() = ToTimestamp(transaction.now());
+  TRUEPOSE_RETURN_IF_ERROR(Insert(transaction, {robot_id, number}, key, stored));
+  return stored;
+}
+
+absl::StatusOr<v1::Calibration> GetCalibration(Snapshot& snapshot, std::string_view name) {
+  TRUEPOSE_ASSIGN_OR_RETURN(const NumberedName key, ParseCalibrationName(name));
+  TRUEPOSE_ASSIGN_OR_RETURN(
+      auto row,
+      sql::Query(snapshot.sql(),
+                 "SELECT message, detail FROM calibrations WHERE robot_id = $1 AND number = $2",
+                 key.robot_id, key.number));
+  TRUEPOSE_ASSIGN_OR_RETURN(const bool found, row->Step());
+  if (!found) return NotFound(name);
+  TRUEPOSE_ASSIGN_OR_RETURN(v1::Calibration calibration, ReadMessage<v1::Calibration>(*row, 0));
+  TRUEPOSE_ASSIGN_OR_RETURN(const v1::Calibration detail, ReadMessage<v1::Calibration>(*row, 1));
+  calibration.MergeFrom(detail);
+  return calibration;
+}
+
+absl::StatusOr<Page<v1::Calibration>> ListCalibrations(Snapshot& snapshot,
+                                                       std::string_view robot_name,
+                                                       const PageRequest& request) {
+  TRUEPOSE_RETURN_IF_ERROR(AtField(GetRobot(snapshot, robot_name).status(), "robot"));
+  TRUEPOSE_ASSIGN_OR_RETURN(const std::string robot_id, ParseRobotName(robot_name, "robot"));
+  const ListId id{"calibrations", robot_id};
+  TRUEPOSE_ASSIGN_OR_RETURN(const PageStart start, CheckPage(id, request));
+  TRUEPOSE_ASSIGN_OR_RETURN(const int64_t before,
+                            AfterNumber(start, std::numeric_limits<int64_t>::max()));
+  TRUEPOSE_ASSIGN_OR_RETURN(
+      auto rows,
+      sql::Query(snapshot.sql(),
+                 "SELECT number, message FROM calibrations WHERE robot_id = $1 AND number < $2 "
+                 "ORDER BY number DESC LIMIT $3",
+                 robot_id, before, start.size + 1));
+  return ReadPage<v1::Calibration>(id, start.size, *rows, [](const sql::Statement& row) {
+    return ReadMessage<v1::Calibration>(row, 1);
+  });
+}
+
+}  // namespace truepose::store

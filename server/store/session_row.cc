@@ -1,0 +1,26 @@
+#include "server/store/session_row.h"
+
+#include "core/base/status_macros.h"
+#include "server/store/message.h"
+#include "server/store/sql/query.h"
+
+namespace truepose::store {
+
+absl::StatusOr<v1::Session> ReadSession(Snapshot& snapshot, Key key) {
+  TRUEPOSE_ASSIGN_OR_RETURN(
+      auto row,
+      sql::Query(snapshot.sql(), "SELECT message FROM sessions WHERE sequence = $1", key));
+  TRUEPOSE_ASSIGN_OR_RETURN(const bool found, row->Step());
+  if (!found) return absl::DataLossError("a session's row is missing");
+  return ReadMessage<v1::Session>(*row, 0);
+}
+
+absl::Status UpdateSession(Transaction& transaction, v1::Session& session) {
+  TRUEPOSE_ASSIGN_OR_RETURN(const Key key, SessionKey(transaction, session.name()));
+  session.set_revision(transaction.revision());
+  session.set_etag(ToEtag(transaction.revision()));
+  return sql::Run(transaction.sql(), "UPDATE sessions SET message = $2 WHERE sequence = $1", key,
+                  sql::BlobView{ToBlob(session)});
+}
+
+}  // namespace truepose::store

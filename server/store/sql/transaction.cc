@@ -1,0 +1,41 @@
+#include "server/store/sql/transaction.h"
+
+#include "core/base/status_macros.h"
+
+namespace truepose::store::sql {
+
+absl::StatusOr<Transaction> Transaction::Begin(Connection& connection, Access access) {
+  TRUEPOSE_RETURN_IF_ERROR(connection.Begin(access));
+  return Transaction(connection);
+}
+
+Transaction::~Transaction() {
+  if (connection_ != nullptr) connection_->Execute("ROLLBACK").IgnoreError();
+}
+
+absl::Status Transaction::Commit() {
+  TRUEPOSE_RETURN_IF_ERROR(connection_->Execute("COMMIT"));
+  connection_ = nullptr;
+  return absl::OkStatus();
+}
+
+absl::StatusOr<Savepoint> Savepoint::Begin(Connection& connection) {
+  TRUEPOSE_RETURN_IF_ERROR(connection.Execute("SAVEPOINT closure"));
+  return Savepoint(connection);
+}
+
+Savepoint::~Savepoint() {
+  if (connection_ != nullptr) RollBack().IgnoreError();
+}
+
+absl::Status Savepoint::Release() {
+  return std::exchange(connection_, nullptr)->Execute("RELEASE SAVEPOINT closure");
+}
+
+absl::Status Savepoint::RollBack() {
+  Connection* connection = std::exchange(connection_, nullptr);
+  TRUEPOSE_RETURN_IF_ERROR(connection->Execute("ROLLBACK TO SAVEPOINT closure"));
+  return connection->Execute("RELEASE SAVEPOINT closure");
+}
+
+}  // namespace truepose::store::sql
