@@ -12,6 +12,7 @@ fail() { echo "empty_debian.sh: $*" >&2; exit 1; }
 command -v debootstrap >/dev/null || fail "found no debootstrap, expected it installed (apt-get install debootstrap)"
 
 debian="$(mktemp -d "${1:-${TMPDIR:-/tmp}}/truepose-debian.XXXXXX")"
+chmod 755 "$debian"
 
 clean_up() {
   local mounted
