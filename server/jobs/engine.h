@@ -1,12 +1,14 @@
 // Runs calibration jobs on worker threads.
 //
-// A worker claims the oldest PENDING job (one commit: RUNNING, attempts + 1, a lease), loads its frozen input, runs it
-// and writes the end in one commit: calibration + SUCCEEDED, or FAILED, or CANCELLED. Only the holder of the lease may
-// end a job, so nothing runs to SUCCEEDED twice. Leases are void at a restart: Start() puts every RUNNING job
-// back to PENDING, or ends it when its cancellation was asked for or it was begun too often.
-// Progress lives in memory only. All functions are safe from any thread.
+// A worker claims the oldest PENDING job (one commit: RUNNING, attempts + 1, a lease), loads its
+// frozen input, runs it and writes the end in one commit: calibration + SUCCEEDED, or FAILED, or
+// CANCELLED. Only the holder of the lease may end a job, so nothing runs to SUCCEEDED twice. Leases
+// are void at a restart: Start() puts every RUNNING job back to PENDING, or ends it when its
+// cancellation was asked for or it was begun too often. Progress lives in memory only. All
+// functions are safe from any thread.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -22,8 +24,13 @@ namespace truepose::jobs {
 struct EngineOptions {
   int workers = 1;                              // jobs that run at once; 1 to 64
   absl::Duration deadline = absl::Minutes(10);  // a job that takes longer is FAILED
-  int max_attempts = 3;                         // a job begun so often without an end is FAILED at the next start
-  absl::Duration store_retry = absl::Seconds(1);  // pause before a refused write (full disk) is tried again
+  int max_attempts = 3;  // a job begun so often without an end is FAILED at the next start
+  absl::Duration store_retry =
+      absl::Seconds(1);  // pause before a refused write (full disk) is tried again
+
+  // Told what no caller hears of, such as a result that can't be stored yet; from any thread. May
+  // be empty.
+  std::function<void(const std::string&)> on_warning;
 
   // Every fault at once, with the option's name as field.
   absl::Status Validate() const;
@@ -32,15 +39,16 @@ struct EngineOptions {
 class JobEngine {
  public:
   // Store and clock outlive the engine. Nothing runs before Start().
-  JobEngine(store::Store& store, Runner runner, EngineOptions options, const store::Clock& clock = store::RealClock());
+  JobEngine(store::Store& store, Runner runner, EngineOptions options,
+            const store::Clock& clock = store::RealClock());
   // Stop().
   ~JobEngine();
 
   // Takes up what an earlier process left behind, then starts the workers. Once only.
   // @returns kInvalidArgument for options; the store's error, and then nothing runs.
   absl::Status Start();
-  // Ends workers, then watches. Running jobs are asked to end and go back to PENDING, the attempt not counted.
-  // Call it after the listeners are closed. May be called again.
+  // Ends workers, then watches. Running jobs are asked to end and go back to PENDING, the attempt
+  // not counted. Call it after the listeners are closed. May be called again.
   void Stop();
 
   // Call after the commit that created a job.
@@ -48,16 +56,17 @@ class JobEngine {
 
   // The job with its progress. @returns kInvalidArgument for the name, kNotFound.
   absl::StatusOr<v1::CalibrationJob> Get(const std::string& name);
-  // PENDING becomes CANCELLED at once. RUNNING keeps running until it notices, with cancel_requested set, and never
-  // becomes SUCCEEDED after that. CANCELLED is returned as it is.
+  // PENDING becomes CANCELLED at once. RUNNING keeps running until it notices, with
+  // cancel_requested set, and never becomes SUCCEEDED after that. CANCELLED is returned as it is.
   // @returns kNotFound; kFailedPrecondition for SUCCEEDED and FAILED.
   absl::StatusOr<v1::CalibrationJob> Cancel(const std::string& name);
   // @returns kNotFound; kUnavailable after Stop().
-  absl::StatusOr<std::unique_ptr<Subscription>> Watch(const std::string& name, WatchCallbacks callbacks);
+  absl::StatusOr<std::unique_ptr<Subscription>> Watch(const std::string& name,
+                                                      WatchCallbacks callbacks);
 
  private:
   class State;
-  std::shared_ptr<State> state_;
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace truepose::jobs

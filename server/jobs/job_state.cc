@@ -24,8 +24,8 @@ bool IsTerminal(v1::JobState state) {
 
 absl::Status CheckTransition(v1::JobState from, v1::JobState to) {
   if (MayFollow(from, to)) return absl::OkStatus();
-  return absl::FailedPreconditionError(absl::StrCat("a job that is ", v1::JobState_Name(from), " can't become ",
-                                                    v1::JobState_Name(to)));
+  return absl::FailedPreconditionError(absl::StrCat("a job that is ", v1::JobState_Name(from),
+                                                    " can't become ", v1::JobState_Name(to)));
 }
 
 }  // namespace truepose::jobs

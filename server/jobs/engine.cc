@@ -1,0 +1,140 @@
+#include "server/jobs/engine.h"
+
+#include <mutex>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "core/base/fault.h"
+#include "core/base/status_macros.h"
+#include "server/jobs/running_jobs.h"
+#include "server/jobs/stop_signal.h"
+#include "server/jobs/transitions.h"
+#include "server/jobs/watch_hub.h"
+#include "server/jobs/worker.h"
+
+namespace truepose::jobs {
+
+using store::Snapshot;
+using store::Transaction;
+
+absl::Status EngineOptions::Validate() const {
+  FaultList faults;
+  if (workers < 1 || workers > 64) faults.Add("workers", absl::StrCat(workers), "1 to 64");
+  if (deadline <= absl::ZeroDuration())
+    faults.Add("deadline", absl::FormatDuration(deadline), "more than 0");
+  if (max_attempts < 1) faults.Add("max_attempts", absl::StrCat(max_attempts), "1 or more");
+  if (store_retry <= absl::ZeroDuration())
+    faults.Add("store_retry", absl::FormatDuration(store_retry), "more than 0");
+  return faults.ToStatus();
+}
+
+class JobEngine::State {
+ public:
+  State(store::Store& store, Runner runner, EngineOptions options, const store::Clock& clock)
+      : store_(store),
+        runner_(std::move(runner)),
+        options_(std::move(options)),
+        context_{store_,
+                 runner_,
+                 options_,
+                 clock,
+                 signal_,
+                 running_,
+                 [this](const std::string& name) { hub_.Changed(name); }},
+        worker_(context_),
+        hub_([this](const std::string& name) { return Get(name); }) {}
+
+  absl::Status Start() {
+    TRUEPOSE_RETURN_IF_ERROR(options_.Validate());
+    const std::lock_guard lock(mutex_);
+    if (!threads_.empty() || signal_.IsStopping())
+      return absl::FailedPreconditionError("the engine was started before");
+    TRUEPOSE_ASSIGN_OR_RETURN(const std::vector<std::string> recovered,
+                              store_.Write([this](Transaction& transaction) {
+                                return RecoverRunning(transaction, options_.max_attempts);
+                              }));
+    for (const std::string& name : recovered) hub_.Changed(name);
+    for (int i = 0; i < options_.workers; ++i) threads_.emplace_back([this] { worker_.Loop(); });
+    return absl::OkStatus();
+  }
+
+  void Stop() {
+    signal_.Stop();
+    const std::lock_guard lock(mutex_);
+    for (std::thread& thread : threads_) {
+      if (thread.joinable()) thread.join();
+    }
+    hub_.Stop();
+  }
+
+  void Wake() { signal_.Wake(); }
+
+  absl::StatusOr<v1::CalibrationJob> Get(const std::string& name) {
+    TRUEPOSE_ASSIGN_OR_RETURN(v1::CalibrationJob job, store_.Read([&](Snapshot& snapshot) {
+      return store::GetJob(snapshot, name);
+    }));
+    const std::shared_ptr<RunningJob> running = running_.Find(name);
+    if (running != nullptr && job.state() == v1::RUNNING)
+      *job.mutable_progress() = running->Progress();
+    return job;
+  }
+
+  absl::StatusOr<v1::CalibrationJob> Cancel(const std::string& name) {
+    TRUEPOSE_ASSIGN_OR_RETURN(
+        const v1::CalibrationJob job,
+        store_.Write([&](Transaction& transaction) { return RequestCancel(transaction, name); }));
+    // After the commit: a worker that began meanwhile finds the request in the store.
+    if (const std::shared_ptr<RunningJob> running = running_.Find(name)) running->AskToEnd();
+    hub_.Changed(name);
+    return job;
+  }
+
+  absl::StatusOr<std::unique_ptr<Subscription>> Watch(const std::string& name,
+                                                      WatchCallbacks callbacks) {
+    TRUEPOSE_RETURN_IF_ERROR(Get(name).status());
+    std::unique_ptr<Subscription> subscription = hub_.Add(name, std::move(callbacks));
+    if (subscription == nullptr) return absl::UnavailableError("the server is stopping");
+    return subscription;
+  }
+
+ private:
+  store::Store& store_;
+  const Runner runner_;
+  const EngineOptions options_;
+  StopSignal signal_;
+  RunningJobs running_;
+  const WorkerContext context_;
+  Worker worker_;
+  WatchHub hub_;
+  std::mutex mutex_;  // of threads_
+  std::vector<std::thread> threads_;
+};
+
+JobEngine::JobEngine(store::Store& store, Runner runner, EngineOptions options,
+                     const store::Clock& clock)
+    : state_(std::make_unique<State>(store, std::move(runner), std::move(options), clock)) {}
+
+JobEngine::~JobEngine() { Stop(); }
+
+absl::Status JobEngine::Start() { return state_->Start(); }
+
+void JobEngine::Stop() { state_->Stop(); }
+
+void JobEngine::Wake() { state_->Wake(); }
+
+absl::StatusOr<v1::CalibrationJob> JobEngine::Get(const std::string& name) {
+  return state_->Get(name);
+}
+
+absl::StatusOr<v1::CalibrationJob> JobEngine::Cancel(const std::string& name) {
+  return state_->Cancel(name);
+}
+
+absl::StatusOr<std::unique_ptr<Subscription>> JobEngine::Watch(const std::string& name,
+                                                               WatchCallbacks callbacks) {
+  return state_->Watch(name, std::move(callbacks));
+}
+
+}  // namespace truepose::jobs

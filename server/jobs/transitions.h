@@ -1,0 +1,55 @@
+// What happens to a job in the store: one function for each change, each within one transaction of
+// the caller.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "server/store/jobs.h"
+#include "server/store/transaction.h"
+#include "truepose/v1/calibration.pb.h"
+
+namespace truepose::jobs {
+
+// A job that a worker runs, and its right to end it.
+struct Claim {
+  v1::CalibrationJob job;
+  store::Lease lease = 0;
+};
+
+// How a run ended.
+struct Outcome {
+  enum class Kind {
+    kResult,     // `calibration` is stored and the job SUCCEEDED
+    kError,      // the job FAILED with `error`
+    kCancelled,  // the job is CANCELLED
+    kStopped,    // the engine stops: the job is PENDING again, the attempt not counted
+  };
+  Kind kind = Kind::kError;
+  v1::Calibration calibration;
+  absl::Status error;
+};
+
+// PENDING -> RUNNING of the oldest one; nothing when none waits.
+absl::StatusOr<std::optional<Claim>> ClaimOldest(store::Transaction& transaction);
+
+// RUNNING -> what the outcome says, or CANCELLED when that was asked for before.
+// @returns false, and changes nothing, when the claim's lease is lost.
+absl::StatusOr<bool> EndJob(store::Transaction& transaction, const Claim& claim,
+                            const Outcome& outcome);
+
+// See JobEngine::Cancel.
+absl::StatusOr<v1::CalibrationJob> RequestCancel(store::Transaction& transaction,
+                                                 std::string_view name);
+
+// Ends every lease: RUNNING becomes CANCELLED when that was asked for, FAILED when the job was
+// begun `max_attempts` times, PENDING otherwise. For the start of a process, when nobody can be
+// running them. @returns their names.
+absl::StatusOr<std::vector<std::string>> RecoverRunning(store::Transaction& transaction,
+                                                        int max_attempts);
+
+}  // namespace truepose::jobs
