@@ -12,7 +12,7 @@ struct Ratio {
   std::string peer;
 };
 
-// @returns the exit code for main. Medians of the repetitions are compared; a name that was filtered out is left out.
+// @returns the exit code for main. Medians of the repetitions, in processor time, are compared; a name that was filtered out is left out.
 int RunWithRatios(int argc, char** argv, const std::vector<Ratio>& ratios);
 
 }  // namespace truepose::bench
