@@ -113,14 +113,13 @@ calibrate() {
   session="$(cat /proc/sys/kernel/random/uuid)"
   truepose session import "$session_file" --robot "$name" --session-id "$session"
   say "Calibrating: even rows identify, odd rows control"
-  truepose calibrate --robot "$name" --session "$session" --split even-odd
+  truepose calibrate --robot "$name" --session "$session" --split even-odd --output "$directory/calibration.json"
 }
 
 compensate() {
   say "Compensating ten targets"
-  calibration="$(truepose calibration list --robot "$name" --json |
-    python3 -c 'import json, sys; print(max((c["name"] for c in json.load(sys.stdin)["calibrations"]),
-                                          key=lambda name: int(name.rsplit("/", 1)[1])))')"
+  local calibration
+  calibration="$(python3 -c 'import json, sys; print(json.load(open(sys.argv[1]))["name"])' "$directory/calibration.json")"
   truepose compensate "$targets" --calibration "$calibration"
   truepose compensate "$targets" --calibration "$calibration" --output "$directory/corrected.csv"
 }
@@ -129,6 +128,7 @@ go_on() {
   say "How to go on"
   cat <<TEXT
 Corrected targets     $directory/corrected.csv
+The calibration       $directory/calibration.json
 Your own robot        copy $robot_file, describe the robot in it (docs/formats.md), then
                         $binaries/client/cli/truepose robot add FILE
                         $binaries/client/cli/truepose session import SESSION.csv --robot NAME
