@@ -28,7 +28,7 @@ void CheckJoints(const std::vector<Joint>& joints, FaultList* faults) {
 
 void CheckElement(const ElementaryTransform& element, const std::vector<Joint>& joints, size_t index, int* next,
                   FaultList* faults) {
-  const std::string field = absl::StrCat("geometry.chain[", index, "]");
+  const std::string field = absl::StrCat("geometry.chain.elements[", index, "]");
   if (!std::isfinite(element.constant)) faults->Add(field, absl::StrCat(element.constant), "a finite number");
   if (element.joint < 0) return;
   if (element.joint != *next) {

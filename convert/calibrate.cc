@@ -1,0 +1,146 @@
+#include <optional>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "convert/digest.h"
+#include "convert/frames.h"
+#include "convert/readings.h"
+#include "convert/report.h"
+#include "convert/robot.h"
+#include "convert/run.h"
+#include "core/assessment/split.h"
+#include "core/base/fault.h"
+#include "core/base/status_macros.h"
+
+namespace truepose::convert {
+namespace {
+
+using Sessions = std::vector<const v1::SessionInput*>;
+
+Sessions SessionsOf(const v1::CalibrationInput& input) {
+  Sessions sessions;
+  for (const v1::SessionInput& session : input.sessions()) sessions.push_back(&session);
+  return sessions;
+}
+
+Hooks HooksFrom(const RunHooks& hooks) {
+  Hooks core;
+  core.is_cancelled = hooks.is_cancelled;
+  if (!hooks.on_progress) return core;
+  core.on_progress = [on_progress = hooks.on_progress](const Progress& progress) {
+    v1::JobProgress message;
+    message.set_stage(progress.stage);
+    message.set_fraction(progress.fraction);
+    message.set_iteration(progress.iteration);
+    message.set_cost(progress.cost);
+    on_progress(message);
+  };
+  return core;
+}
+
+// The tool that the target is near to: the one named, else the robot file's first as a mere start value.
+absl::StatusOr<std::optional<Pose>> NominalTool(const v1::Nominal& nominal, const std::string& name) {
+  if (name.empty()) {
+    if (nominal.tools_size() == 0) return std::nullopt;
+    return PoseFrom(nominal.tools(0).pose());
+  }
+  TRUEPOSE_ASSIGN_OR_RETURN(const Pose X_FT, ToolByName(nominal, name, "options.nominal_tool"));
+  return X_FT;
+}
+
+// Roles of the usable readings, from the split of all rows.
+absl::StatusOr<std::vector<bool>> Roles(const Sessions& sessions, const ReadingsProblem& readings,
+                                        const v1::CalibrationOptions& options) {
+  TRUEPOSE_ASSIGN_OR_RETURN(const Split split, ParseSplit(options.split()));
+  std::vector<std::string> groups, values;
+  int rows = 0;
+  for (const v1::SessionInput* session : sessions) rows += session->readings_size();
+  if (!options.group_column().empty()) {
+    TRUEPOSE_ASSIGN_OR_RETURN(groups, ColumnValues(sessions, options.group_column(), "options.group_column"));
+  }
+  if (split.rule == SplitRule::kColumn) {
+    TRUEPOSE_ASSIGN_OR_RETURN(values, ColumnValues(sessions, split.column, "options.split"));
+  }
+  TRUEPOSE_ASSIGN_OR_RETURN(const std::vector<bool> all, ApplySplit(split, rows, groups, values));
+  std::vector<bool> usable;
+  for (int position : readings.position) usable.push_back(all[position]);
+  return usable;
+}
+
+absl::Status CheckLimits(const v1::CalibrationInput& input, std::vector<std::string>* warnings) {
+  FaultList faults;
+  for (int i = 0; i < input.sessions_size(); ++i) {
+    const auto& readings = input.sessions(i).readings();
+    for (const std::string& warning : LimitWarnings(input.nominal(), {readings.begin(), readings.end()})) {
+      const std::string prefix = input.sessions_size() > 1 ? absl::StrCat("session ", i + 1, ": ") : "";
+      warnings->push_back(prefix + warning);
+      faults.Add(absl::StrCat("sessions[", i, "].readings"), warning, "joints within their limits (strict_limits)");
+    }
+  }
+  return input.options().strict_limits() ? faults.ToStatus() : absl::OkStatus();
+}
+
+void WarnOfFrames(v1::CalibrationReport* report) {
+  for (const v1::FrameEstimate& frame : report->frames()) {
+    if (frame.fitted_on() != "its own rows") continue;
+    report->add_warnings(absl::StrCat(frame.group() == v1::BASE ? "placement '" : "target '", frame.name(),
+                                      "' has no calibration row: its frame is fitted on its own control rows"));
+  }
+}
+
+v1::Calibration MessageOf(const v1::CalibrationInput& input, const CalibrationResult& result,
+                          const ReadingsProblem& readings, const std::optional<Pose>& X_FT) {
+  v1::Calibration calibration;
+  calibration.set_nominal_revision(input.nominal_revision());
+  for (const v1::SessionInput& session : input.sessions()) calibration.add_sessions(session.session().name());
+  FillParameters(result, &calibration);
+  *calibration.mutable_report() = ReportOf(result, readings, X_FT);
+  *calibration.mutable_options() = input.options();
+  for (v1::RowResidual& residual : ResidualsOf(result.complete, readings.rows, readings.problem.calibrates)) {
+    *calibration.add_residuals() = std::move(residual);
+  }
+  calibration.set_digest(CalibrationDigest(result.model.convention, NominalDigest(input.nominal()), calibration));
+  return calibration;
+}
+
+void FillReport(const v1::CalibrationInput& input, const ReadingsProblem& readings,
+                const std::vector<std::string>& warnings, v1::CalibrationReport* report) {
+  report->set_split(input.options().split());
+  report->set_joints_used(readings.joints_used);
+  for (const std::string& warning : readings.warnings) report->add_warnings(warning);
+  for (const std::string& warning : warnings) report->add_warnings(warning);
+  WarnOfFrames(report);
+}
+
+// The options' own faults and the robot's, at once.
+absl::Status CheckInput(const v1::CalibrationInput& input) {
+  FaultList faults;
+  faults.AddAll(ValidateOptions(input.options()));
+  faults.AddAll(ValidateNominal(input.nominal()), "nominal.");
+  return faults.ToStatus();
+}
+
+}  // namespace
+
+absl::StatusOr<v1::Calibration> RunCalibration(const v1::CalibrationInput& input, const RunHooks& hooks) {
+  TRUEPOSE_RETURN_IF_ERROR(CheckInput(input));
+  TRUEPOSE_ASSIGN_OR_RETURN(const Robot robot, RobotFrom(input.nominal()));
+  const Sessions sessions = SessionsOf(input);
+  TRUEPOSE_ASSIGN_OR_RETURN(ReadingsProblem readings,
+                            ReadingsFrom(input.nominal(), robot, sessions, input.options().observe()));
+  std::vector<std::string> warnings;
+  TRUEPOSE_RETURN_IF_ERROR(CheckLimits(input, &warnings));
+  readings.problem.robot = &robot;
+  TRUEPOSE_ASSIGN_OR_RETURN(readings.problem.calibrates, Roles(sessions, readings, input.options()));
+  TRUEPOSE_ASSIGN_OR_RETURN(readings.problem.X_FT_nominal,
+                            NominalTool(input.nominal(), input.options().nominal_tool()));
+  CalibrateOptions options;
+  options.require_complete = input.options().require_complete();
+  const Hooks core_hooks = HooksFrom(hooks);
+  TRUEPOSE_ASSIGN_OR_RETURN(const CalibrationResult result, Calibrate(readings.problem, options, core_hooks));
+  v1::Calibration calibration = MessageOf(input, result, readings, readings.problem.X_FT_nominal);
+  FillReport(input, readings, warnings, calibration.mutable_report());
+  return calibration;
+}
+
+}  // namespace truepose::convert

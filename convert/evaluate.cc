@@ -1,0 +1,50 @@
+#include <optional>
+#include <utility>
+
+#include "convert/calibrated_model.h"
+#include "convert/frames.h"
+#include "convert/readings.h"
+#include "convert/report.h"
+#include "convert/robot.h"
+#include "convert/run.h"
+#include "core/base/status_macros.h"
+
+namespace truepose::convert {
+namespace {
+
+v1::Evaluation MessageOf(const EvaluationResult& result, const ReadingsProblem& readings) {
+  v1::Evaluation evaluation;
+  *evaluation.mutable_set() = SetReportOf(result.set, readings.rows);
+  const CalibrationProblem& problem = readings.problem;
+  const std::vector<FittedOn> base(problem.placements.size(), FittedOn::kOwnRows);
+  const std::vector<FittedOn> tool(problem.targets.size(), FittedOn::kOwnRows);
+  for (v1::FrameEstimate& frame : FramesOf(result.after, problem.placements, problem.targets, base, tool)) {
+    *evaluation.add_frames() = std::move(frame);
+  }
+  const std::vector<bool> control(problem.readings.size(), false);
+  for (v1::RowResidual& residual : ResidualsOf(result.set, readings.rows, control)) {
+    *evaluation.add_residuals() = std::move(residual);
+  }
+  for (const std::string& warning : readings.warnings) evaluation.add_warnings(warning);
+  return evaluation;
+}
+
+}  // namespace
+
+absl::StatusOr<v1::Evaluation> RunEvaluation(const v1::Nominal& nominal, const v1::Calibration& calibration,
+                                             const v1::SessionInput& session, v1::Observe observe) {
+  TRUEPOSE_ASSIGN_OR_RETURN(const Robot robot, RobotFrom(nominal));
+  TRUEPOSE_ASSIGN_OR_RETURN(const CalibratedModel calibrated, CalibratedModelFrom(robot, calibration));
+  TRUEPOSE_ASSIGN_OR_RETURN(ReadingsProblem readings, ReadingsFrom(nominal, robot, {&session}, observe));
+  readings.problem.robot = &robot;
+  if (nominal.tools_size() > 0) readings.problem.X_FT_nominal = PoseFrom(nominal.tools(0).pose());
+  TRUEPOSE_ASSIGN_OR_RETURN(const EvaluationResult result, Evaluate(readings.problem, calibrated.lambda, {}, {}));
+  v1::Evaluation evaluation = MessageOf(result, readings);
+  evaluation.set_calibration(calibration.name());
+  evaluation.set_session(session.session().name());
+  const auto& rows = session.readings();
+  for (const std::string& warning : LimitWarnings(nominal, {rows.begin(), rows.end()})) evaluation.add_warnings(warning);
+  return evaluation;
+}
+
+}  // namespace truepose::convert

@@ -1,0 +1,30 @@
+// Poses and vectors between messages and core.
+#pragma once
+
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "core/base/fault.h"
+#include "core/geometry/pose.h"
+#include "truepose/v1/robot.pb.h"
+#include "truepose/v1/session.pb.h"
+
+namespace truepose::convert {
+
+// A quaternion or axis may differ from unit length by this; files round to 9 digits, some to 6.
+inline constexpr double kUnitTolerance = 1e-6;
+
+// Adds faults below `field` for values that are not finite or a quaternion that is not a unit one.
+void CheckPose(const v1::Pose& pose, const std::string& field, FaultList* faults);
+void CheckVector(const v1::Vector3& vector, const std::string& field, FaultList* faults);
+void CheckQuaternion(const v1::Quaternion& quaternion, const std::string& field, FaultList* faults);
+void CheckFinite(double value, const std::string& field, FaultList* faults);
+
+Pose PoseFrom(const v1::Pose& pose);
+v1::Pose ToProto(const Pose& pose);
+Eigen::Vector3d VectorFrom(const v1::Vector3& vector);
+v1::Vector3 ToProto(const Eigen::Vector3d& vector);
+Eigen::Matrix3d RotationFrom(const v1::Quaternion& quaternion);
+v1::Quaternion QuaternionToProto(const Eigen::Matrix3d& R);
+
+}  // namespace truepose::convert
