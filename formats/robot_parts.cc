@@ -129,6 +129,11 @@ void ReadJointMap(YamlMap& top, v1::Nominal& nominal, FieldLines& lines) {
   // Without joints there is a fault already.
   if (n == 0) return;
   joint_map.mutable_offset()->Resize(n, 0.0);
+  // Both lists are known names before either is read, else one's would be a wrong unit of the
+  // other.
+  for (const Dimension dimension : {Dimension::kAngle, Dimension::kLength}) {
+    for (const std::string& name : NamesWithUnits("offset", dimension)) map.Find(name);
+  }
   ReadScale(map, n, joint_map, lines);
   ReadOffsets(map, nominal, Dimension::kAngle, joint_map, lines);
   ReadOffsets(map, nominal, Dimension::kLength, joint_map, lines);

@@ -23,14 +23,15 @@ using Response = v1::CompensateResponse;
 
 constexpr size_t kMostBytes = size_t{1} << 30;
 
-void CheckColumns(const Columns& columns, const std::string& place, FaultList& faults) {
+// False when the header makes no target, whatever the rows hold.
+bool CheckColumns(const Columns& columns, const std::string& place, FaultList& faults) {
   const ColumnGroup* commanded = columns.Find(Quantity::kCommandedJoint);
   if (commanded != nullptr) {
     const auto named = std::find_if(commanded->columns.begin(), commanded->columns.end(),
                                     [](const Column& column) { return !column.name.empty(); });
     faults.Add(StrCat(place, ": ", named->name), "a commanded joint",
                "the joints of a target without _cmd, such as q1_rad");
-    return;
+    return false;
   }
   const bool position = columns.Find(Quantity::kPosition) != nullptr;
   const bool orientation = columns.Find(Quantity::kQuaternion) != nullptr;
@@ -39,7 +40,10 @@ void CheckColumns(const Columns& columns, const std::string& place, FaultList& f
                "position and orientation of a pose");
   } else if (!position && columns.Find(Quantity::kMeasuredJoint) == nullptr) {
     faults.Add(place, "no column of a target", "q1_rad..., or x_mm,y_mm,z_mm,qx,qy,qz,qw, or both");
+  } else {
+    return true;
   }
+  return false;
 }
 
 void SetRotation(const std::vector<double>& q, v1::Pose* pose) {
@@ -89,6 +93,15 @@ v1::CompensationTarget ReadTarget(const RowReader& reader, const CsvRow& row, in
     reader.AddFault(row, "target", "empty cells", "joints or a pose");
   }
   return target;
+}
+
+// Of a table whose header is at fault: what else is wrong with it.
+void CheckNumbers(const RowReader& reader, const CsvRow& row) {
+  std::vector<double> values;
+  for (const Quantity quantity :
+       {Quantity::kMeasuredJoint, Quantity::kPosition, Quantity::kQuaternion}) {
+    reader.ReadNumbers(row, quantity, values);
+  }
 }
 
 // A line of the table of results, in the order of ResultHeader.
@@ -151,12 +164,16 @@ absl::StatusOr<std::vector<v1::CompensationTarget>> ParseTargetsFile(std::string
   const CsvTable table = ParseCsv(text, file_name, faults);
   if (table.header.cells.empty()) return faults.ToStatus();
   const Columns columns(table.header, KnownColumns(nominal, false), file_name, faults);
-  CheckColumns(columns, StrCat(file_name, ":", table.header.line), faults);
+  const bool usable = CheckColumns(columns, StrCat(file_name, ":", table.header.line), faults);
   const RowReader reader(table, columns, file_name, faults);
   std::vector<v1::CompensationTarget> targets;
   for (const CsvRow& row : table.rows) {
     if (IsEnough(faults)) break;
-    targets.push_back(ReadTarget(reader, row, static_cast<int>(targets.size())));
+    if (usable) {
+      targets.push_back(ReadTarget(reader, row, static_cast<int>(targets.size())));
+    } else {
+      CheckNumbers(reader, row);
+    }
   }
   if (targets.empty() && faults.empty()) {
     faults.Add(std::string(file_name), "no rows under the header", "at least one target");

@@ -1,0 +1,174 @@
+// Thousands of damaged files: reading ends with a result or with faults, and a result that is
+// written reads back. Catches: a crash, an abort, an endless loop, an error without a fault; under
+// sanitizers every bad access.
+#include <algorithm>
+#include <random>
+
+#include "core/base/fault.h"
+#include "formats/robot_file.h"
+#include "formats/session_file.h"
+#include "formats/targets_file.h"
+#include "gtest/gtest.h"
+#include "tests/formats/samples.h"
+
+namespace truepose::formats {
+namespace {
+
+constexpr int kCases = 20000;
+
+constexpr char kSession[] =
+    "time;placement;target;q1_deg;q2_mm;q1_cmd_deg;q2_cmd_mm;x_mm;y_mm;z_mm;qx;qy;qz;qw;rx_deg;ry_"
+    "deg;rz_deg;"
+    "sx_mm;sy_mm;sz_mm;axis_x;axis_y;axis_z;temp_C;tau1_Nm;tau2_Nm;note\r\n"
+    "2025-03-14T09:26:53Z;a;\"T;\"\"1\"\"\";1,5;250;1,5;250;1;2;3;0;0;0;1;0;0;0;0,1;0,1;0,1;0;0;1;"
+    "20;1;2;x\r\n"
+    "2025-03-14T09:26:54Z;a;T;2,5;251;;;;;;0;0;0,6;0,8;;;;;;;;;;;;;\r\n"
+    ";;;3,5;252;3;252;1;2;3;;;;;;;;;;;;;;;;;\xC3\xBC\r\n";
+
+constexpr char kTargets[] =
+    "name,q1_rad,q2_m,x_mm,y_mm,z_mm,qx,qy,qz,qw\nhome,0.1,0.2,1,2,3,0,0,0,1\n\"p,2\",,,1e2,-2,+3,"
+    "0.6,0,0,-0.8\n";
+
+constexpr char kRobot[] =
+    "# a robot\nrobot: r-1\nserial: \"01\"\nkind: industrial\n"
+    "joints:\n  - {name: turn, type: revolute, lower_deg: -90, upper_rad: 2}\n"
+    "  - name: slide\n    type: prismatic\n    upper_mm: 650\n"
+    "geometry:\n  chain: [{tz_mm: 127.3}, {rz_joint: turn}, {rx_deg: -90}, {tz_joint: 2}]\n"
+    "  flange:\n    - {tz_mm: 107}\n"
+    "joint_map: {scale: [[1, 0], [0.5, -1]], offset_deg: [90, 0], offset_mm: [0, 12]}\n"
+    "tools:\n  pin: {z_mm: 161}\n  'the hand': {x_mm: 1, qx: 0, qy: 0, qz: 0.8, qw: 0.6}\n";
+
+constexpr char kDh[] =
+    "robot: r\njoints: [{name: a, type: revolute}]\n"
+    "geometry: {standard_dh: [{theta_deg: 0, d_mm: 1, a_mm: 0, alpha_deg: 90}]}\n";
+
+// Damages a text at one to four places: bytes changed, put in, taken out; pieces doubled, moved or
+// cut off.
+class Mutator {
+ public:
+  explicit Mutator(uint64_t seed) : random_(seed) {}
+
+  std::string Damage(std::string text) {
+    const size_t places = 1 + Below(4);
+    for (size_t i = 0; i < places && !text.empty(); ++i) DamageOnce(text);
+    return text;
+  }
+
+ private:
+  size_t Below(size_t n) { return random_() % n; }
+
+  // Bytes that mean something to one of the formats come more often than chance would have them.
+  char Byte() {
+    constexpr std::string_view kLikely =
+        "\",;:\n\r\t {}[]-#&*?!|>'%@`~0123456789.eE+nqxyz_\xEF\xC3\xFF";
+    return Below(4) == 0 ? static_cast<char>(Below(256)) : kLikely[Below(kLikely.size())];
+  }
+
+  void DamageOnce(std::string& text) {
+    const size_t at = Below(text.size());
+    const size_t length = 1 + Below(std::min<size_t>(text.size() - at, 20));
+    switch (Below(6)) {
+      case 0:
+        text[at] = Byte();
+        break;
+      case 1:
+        text.insert(at, 1, Byte());
+        break;
+      case 2:
+        text.erase(at, length);
+        break;
+      case 3:
+        text.insert(Below(text.size()), text.substr(at, length));
+        break;
+      case 4:
+        text.resize(at);
+        break;
+      default:
+        text.insert(at, Below(50), Byte());
+    }
+  }
+
+  std::mt19937_64 random_;
+};
+
+// Every way a reader may end: a value, or kInvalidArgument with at least one fault whose parts are
+// text.
+template <class T>
+bool IsValueOrFaults(const absl::StatusOr<T>& result, const std::string& text) {
+  if (result.ok()) return true;
+  EXPECT_EQ(result.status().code(), absl::StatusCode::kInvalidArgument) << text;
+  EXPECT_FALSE(FaultsOf(result.status()).empty()) << text;
+  for (const Fault& fault : FaultsOf(result.status())) {
+    EXPECT_FALSE(fault.field.empty() || fault.found.empty()) << text << "\n" << result.status();
+  }
+  return false;
+}
+
+TEST(MutationTest, Sessions) {
+  const v1::Nominal robot = RobotOf("RP");
+  const SessionFileOptions options{.euler = "xyz-intrinsic"};
+  ASSERT_TRUE(ParseSessionFile(kSession, "s.csv", robot, options).ok());
+  Mutator mutator(1);
+  int read = 0;
+  for (int i = 0; i < kCases && !HasFailure(); ++i) {
+    const std::string text = mutator.Damage(kSession);
+    const auto result = ParseSessionFile(text, "s.csv", robot, options);
+    if (!IsValueOrFaults(result, text)) continue;
+    ++read;
+    const std::string written = WriteSessionFile(robot, result->session, result->readings);
+    const auto again = ParseSessionFile(written, "s.csv", robot);
+    ASSERT_TRUE(again.ok()) << text << written << again.status();
+  }
+  // A mutator that leaves nothing whole, or all of it, would test only one of the ways.
+  EXPECT_GT(read, kCases / 50);
+  EXPECT_LT(read, kCases / 2);
+}
+
+TEST(MutationTest, Targets) {
+  const v1::Nominal robot = RobotOf("RP");
+  ASSERT_TRUE(ParseTargetsFile(kTargets, "t.csv", robot).ok());
+  Mutator mutator(2);
+  int read = 0;
+  for (int i = 0; i < kCases && !HasFailure(); ++i) {
+    const std::string text = mutator.Damage(kTargets);
+    read += IsValueOrFaults(ParseTargetsFile(text, "t.csv", robot), text);
+  }
+  EXPECT_GT(read, kCases / 50);
+  EXPECT_LT(read, kCases * 3 / 4);
+}
+
+void CheckRobots(const std::string& valid, uint64_t seed, int cases) {
+  ASSERT_TRUE(ParseRobotFile(valid, "r.yaml").ok());
+  Mutator mutator(seed);
+  int read = 0;
+  for (int i = 0; i < cases && !testing::Test::HasFailure(); ++i) {
+    const std::string text = mutator.Damage(valid);
+    const auto result = ParseRobotFile(text, "r.yaml");
+    if (!IsValueOrFaults(result, text)) continue;
+    ++read;
+    const auto again = ParseRobotFile(WriteRobotFile(*result), "r.yaml");
+    ASSERT_TRUE(again.ok()) << text << "\n" << WriteRobotFile(*result) << again.status();
+  }
+  EXPECT_GT(read, cases / 200);
+  EXPECT_LT(read, cases / 2);
+}
+
+TEST(MutationTest, Robots) { CheckRobots(kRobot, 3, kCases); }
+
+TEST(MutationTest, DhTables) { CheckRobots(kDh, 4, kCases); }
+
+// Bytes without any form, short and long.
+TEST(MutationTest, Noise) {
+  std::mt19937_64 random(5);
+  const v1::Nominal robot = RobotOf("RP");
+  for (int i = 0; i < kCases; ++i) {
+    std::string text(random() % 200, '\0');
+    for (char& c : text) c = static_cast<char>(i % 2 == 0 ? random() : 32 + random() % 95);
+    IsValueOrFaults(ParseRobotFile(text, "r.yaml"), text);
+    IsValueOrFaults(ParseSessionFile(text, "s.csv", robot), text);
+    IsValueOrFaults(ParseTargetsFile(text, "t.csv", robot), text);
+  }
+}
+
+}  // namespace
+}  // namespace truepose::formats
