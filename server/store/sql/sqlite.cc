@@ -74,6 +74,9 @@ absl::Status Configure(SqliteConnection& connection, Access access) {
       connection.Execute("PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON"));
   if (access == Access::kRead) return connection.Execute("PRAGMA query_only = ON");
   TRUEPOSE_RETURN_IF_ERROR(connection.Execute("PRAGMA journal_mode = WAL"));
+  TRUEPOSE_ASSIGN_OR_RETURN(const int64_t id, QueryInt64(connection, "PRAGMA application_id"));
+  // Only once: even the same mark written again would change a file that is refused later.
+  if (id == kApplicationId) return absl::OkStatus();
   return connection.Execute(absl::StrCat("PRAGMA application_id = ", kApplicationId));
 }
 
