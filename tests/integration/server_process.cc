@@ -1,0 +1,79 @@
+#include "tests/integration/server_process.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+namespace truepose::testing {
+namespace {
+
+// In the child: only calls that are safe after a fork of a process with threads.
+[[noreturn]] void Execute(const std::vector<char*>& arguments, const char* output_file) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // a test that dies leaves no server behind
+  const int output = open(output_file, O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  dup2(output, STDOUT_FILENO);
+  dup2(output, STDERR_FILENO);
+  execv(arguments[0], arguments.data());
+  _exit(127);
+}
+
+}  // namespace
+
+ServerProcess::ServerProcess(const TempDir& folder, const std::vector<std::string>& arguments)
+    : ready_file_(folder.File("ready")),
+      output_file_(folder.File("output")),
+      address_("unix:" + folder.File("s.sock")) {
+  std::filesystem::remove(ready_file_);
+  // The test's own arguments come last, so that they win.
+  std::vector<std::string> words = {TRUEPOSED, "--listen", address_, "--ready-file", ready_file_};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  pid_ = fork();
+  if (pid_ == 0) Execute(pointers, output_file_.c_str());
+}
+
+ServerProcess::~ServerProcess() { Kill(); }
+
+bool ServerProcess::HasEnded() {
+  if (!ended_) ended_ = waitpid(pid_, &status_, WNOHANG) == pid_;
+  return ended_;
+}
+
+bool ServerProcess::WaitUntilReady() {
+  for (int i = 0; i < 6000 && !HasEnded(); ++i) {
+    if (std::filesystem::exists(ready_file_)) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return false;
+}
+
+void ServerProcess::Kill() {
+  if (HasEnded()) return;
+  kill(pid_, SIGKILL);
+  Wait();
+}
+
+void ServerProcess::Signal(int number) const { kill(pid_, number); }
+
+int ServerProcess::Wait() {
+  if (!ended_) ended_ = waitpid(pid_, &status_, 0) == pid_;
+  return WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
+}
+
+std::string ServerProcess::Output() const {
+  std::ostringstream text;
+  text << std::ifstream(output_file_).rdbuf();
+  return text.str();
+}
+
+}  // namespace truepose::testing

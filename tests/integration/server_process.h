@@ -1,0 +1,43 @@
+// trueposed as a child process, ended by its id at the latest with this object.
+#pragma once
+
+#include <sys/types.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/server/testing/temp_dir.h"
+
+namespace truepose::testing {
+
+class ServerProcess {
+ public:
+  // Starts trueposed with `arguments`, --listen and --ready-file in `folder`, without waiting.
+  ServerProcess(const TempDir& folder, const std::vector<std::string>& arguments);
+  // Kill().
+  ~ServerProcess();
+  ServerProcess(const ServerProcess&) = delete;
+  ServerProcess& operator=(const ServerProcess&) = delete;
+
+  // Waits until calls are served. false: the process ended or half a minute passed.
+  bool WaitUntilReady();
+  const std::string& address() const { return address_; }
+
+  // kill -9, and waits until it is gone.
+  void Kill();
+  void Signal(int number) const;
+  // Waits for the end by itself. @returns the exit code, 128 + n for signal n.
+  int Wait();
+  // What it wrote to stdout and stderr.
+  std::string Output() const;
+
+ private:
+  bool HasEnded();
+
+  const std::string ready_file_, output_file_, address_;
+  pid_t pid_ = 0;
+  int status_ = 0;
+  bool ended_ = false;
+};
+
+}  // namespace truepose::testing

@@ -1,0 +1,197 @@
+#include "server/services/jobs.h"
+
+#include "absl/strings/str_cat.h"
+#include "absl/synchronization/notification.h"
+#include "server/services/robots.h"
+#include "tests/server/testing/handler_test.h"
+
+namespace truepose::services {
+namespace {
+
+using testing::HandlerTest;
+using testing::HasCode;
+using testing::HasFaultsAt;
+using testing::HasFields;
+using testing::IsOk;
+using testing::kJob1;
+using testing::kJob2;
+using testing::kSession1;
+using testing::kSession2;
+using testing::kUnknown;
+using testing::Parse;
+using Fields = std::vector<std::string>;
+
+v1::CreateCalibrationJobRequest Request(const std::string& job_id,
+                                        const std::vector<std::string>& session_ids) {
+  v1::CreateCalibrationJobRequest request;
+  request.set_job_id(job_id);
+  request.set_robot("robots/ur10");
+  for (const std::string& id : session_ids) request.add_sessions(absl::StrCat("sessions/", id));
+  request.mutable_options()->set_split("even-odd");
+  return request;
+}
+
+template <typename T>
+T Named(const std::string& name) {
+  T request;
+  request.set_name(name);
+  return request;
+}
+
+std::string JobName(const std::string& id) { return absl::StrCat("jobs/", id); }
+
+class JobsTest : public HandlerTest {
+ protected:
+  JobsTest() { AddRobot("ur10"); }
+};
+
+// Would catch a job without its frozen input.
+TEST_F(JobsTest, CreatedJobIsPendingWithFrozenInput) {
+  AddSealedSession(kSession1, "ur10");
+  AddSealedSession(kSession2, "ur10");
+  const auto job = CreateCalibrationJob(call(), Request(kJob1, {kSession1, kSession2}));
+  ASSERT_THAT(job, IsOk());
+  EXPECT_THAT(*job, HasFields(absl::StrCat(R"pb(name: "jobs/)pb", kJob1,
+                                           R"pb("
+                                                robot: "robots/ur10"
+                                                nominal_revision: "robots/ur10/nominals/1"
+                                                options { split: "even-odd" }
+                                                state: PENDING)pb")));
+  EXPECT_EQ(job->sessions_size(), 2);
+  EXPECT_EQ(job->input_digest().size(), 64u);
+  const auto got = GetCalibrationJob(call(), Named<v1::GetCalibrationJobRequest>(JobName(kJob1)));
+  ASSERT_THAT(got, IsOk());
+  EXPECT_EQ(got->input_digest(), job->input_digest());
+}
+
+// Would catch a job that runs twice because its answer was lost, or an id that stands for two jobs.
+TEST_F(JobsTest, RepeatedCreateReturnsTheJobAndAnotherIsRefused) {
+  AddSealedSession(kSession1, "ur10");
+  const auto first = CreateCalibrationJob(call(), Request(kJob1, {kSession1}));
+  const auto second = CreateCalibrationJob(call(), Request(kJob1, {kSession1}));
+  ASSERT_THAT(second, IsOk());
+  EXPECT_EQ(first->SerializeAsString(), second->SerializeAsString());
+  auto other = Request(kJob1, {kSession1});
+  other.mutable_options()->set_split("every:2");
+  EXPECT_THAT(CreateCalibrationJob(call(), other), HasCode(absl::StatusCode::kAlreadyExists));
+}
+
+// Would catch faults told one at a time.
+TEST_F(JobsTest, CreateNamesEveryFault) {
+  auto request = Request("no-uuid", {kSession1, kSession1});
+  request.add_sessions("session");
+  request.set_robot("ur10");
+  request.mutable_options()->set_split("odd-even");
+  EXPECT_THAT(
+      CreateCalibrationJob(call(), request),
+      HasFaultsAt(Fields{"job_id", "robot", "sessions[1]", "sessions[2]", "options.split"}));
+  EXPECT_THAT(CreateCalibrationJob(call(), Request(kJob1, {})), HasFaultsAt(Fields{"sessions"}));
+}
+
+TEST_F(JobsTest, CreateNeedsItsRobotAndSessions) {
+  AddSealedSession(kSession1, "ur10");
+  EXPECT_THAT(CreateCalibrationJob(call(), Request(kJob1, {kUnknown})),
+              HasCode(absl::StatusCode::kNotFound));
+  auto request = Request(kJob1, {kSession1});
+  request.set_robot("robots/none");
+  EXPECT_THAT(CreateCalibrationJob(call(), request), HasCode(absl::StatusCode::kNotFound));
+}
+
+// Would catch a calibration of readings that may still change, of another robot, or under two
+// geometries.
+TEST_F(JobsTest, CreateNamesEverySessionThatCannotBeUsed) {
+  AddRobot("other");
+  AddSealedSession(kSession1, "ur10");
+  AddSession(kSession2, "other", 2);
+  v1::CreateNominalRevisionRequest revision;
+  revision.set_parent("robots/ur10");
+  *revision.mutable_nominal() = testing::SixAxes("2");
+  ASSERT_THAT(CreateNominalRevision(call(), revision), IsOk());
+  constexpr char kSession3[] = "00000000-0000-4000-8000-000000000003";
+  AddSealedSession(kSession3, "ur10");
+  const auto job = CreateCalibrationJob(call(), Request(kJob1, {kSession1, kSession2, kSession3}));
+  ASSERT_THAT(job, HasCode(absl::StatusCode::kFailedPrecondition));
+  EXPECT_EQ(testing::FieldsOf(job.status()), (Fields{"sessions[1]", "sessions[1]", "sessions[2]"}));
+  const std::string message(job.status().message());
+  EXPECT_THAT(message, ::testing::HasSubstr("OPEN, expected SEALED"));
+  EXPECT_THAT(message, ::testing::HasSubstr("of robots/other, expected a session of robots/ur10"));
+  EXPECT_THAT(message, ::testing::HasSubstr("robots/ur10/nominals/2"));
+}
+
+TEST_F(JobsTest, GetTellsUnknownFromMalformed) {
+  EXPECT_THAT(GetCalibrationJob(call(), Named<v1::GetCalibrationJobRequest>(JobName(kUnknown))),
+              HasCode(absl::StatusCode::kNotFound));
+  EXPECT_THAT(GetCalibrationJob(call(), Named<v1::GetCalibrationJobRequest>("jobs/1")),
+              HasFaultsAt(Fields{"name"}));
+}
+
+// Would catch a list in another order or of another robot.
+TEST_F(JobsTest, ListIsNewestFirstAndOfOneRobot) {
+  AddSealedSession(kSession1, "ur10");
+  ASSERT_THAT(CreateCalibrationJob(call(), Request(kJob2, {kSession1})), IsOk());
+  ASSERT_THAT(CreateCalibrationJob(call(), Request(kJob1, {kSession1})), IsOk());
+  const auto jobs = ListCalibrationJobs(
+      call(), Parse<v1::ListCalibrationJobsRequest>(R"pb(robot: "robots/ur10")pb"));
+  ASSERT_THAT(jobs, IsOk());
+  ASSERT_EQ(jobs->jobs_size(), 2);
+  EXPECT_EQ(jobs->jobs(0).name(), JobName(kJob1));
+  EXPECT_THAT(ListCalibrationJobs(call(), Parse<v1::ListCalibrationJobsRequest>("page_size: -1")),
+              HasFaultsAt(Fields{"page_size"}));
+}
+
+// Would catch a cancel that is lost or can't be repeated.
+TEST_F(JobsTest, CancelEndsAPendingJobAndMayBeRepeated) {
+  AddSealedSession(kSession1, "ur10");
+  ASSERT_THAT(CreateCalibrationJob(call(), Request(kJob1, {kSession1})), IsOk());
+  const auto request = Named<v1::CancelCalibrationJobRequest>(JobName(kJob1));
+  for (int i = 0; i < 2; ++i) {
+    const auto job = CancelCalibrationJob(call(), request);
+    ASSERT_THAT(job, IsOk());
+    EXPECT_EQ(job->state(), v1::CANCELLED);
+  }
+}
+
+TEST_F(JobsTest, CancelTellsUnknownFromMalformed) {
+  EXPECT_THAT(
+      CancelCalibrationJob(call(), Named<v1::CancelCalibrationJobRequest>(JobName(kUnknown))),
+      HasCode(absl::StatusCode::kNotFound));
+  EXPECT_THAT(CancelCalibrationJob(call(), Named<v1::CancelCalibrationJobRequest>("1")),
+              HasFaultsAt(Fields{"name"}));
+}
+
+// Would catch a watch that never tells the state it began with, or never ends.
+TEST_F(JobsTest, WatchTellsTheStateAndEndsAfterTheLast) {
+  AddSealedSession(kSession1, "ur10");
+  ASSERT_THAT(CreateCalibrationJob(call(), Request(kJob1, {kSession1})), IsOk());
+  ASSERT_THAT(CancelCalibrationJob(call(), Named<v1::CancelCalibrationJobRequest>(JobName(kJob1))),
+              IsOk());
+  ASSERT_THAT(engine().Start(), IsOk());
+  absl::Notification done;
+  v1::JobState last = v1::JOB_STATE_UNSPECIFIED;
+  absl::Status ended = absl::UnknownError("not ended");
+  const auto watch =
+      WatchCalibrationJob(call(), Named<v1::WatchCalibrationJobRequest>(JobName(kJob1)),
+                          {.on_job = [&](const v1::CalibrationJob& job) { last = job.state(); },
+                           .on_done =
+                               [&](const absl::Status& status) {
+                                 ended = status;
+                                 done.Notify();
+                               }});
+  ASSERT_THAT(watch, IsOk());
+  ASSERT_TRUE(done.WaitForNotificationWithTimeout(absl::Seconds(20)));
+  EXPECT_EQ(last, v1::CANCELLED);
+  EXPECT_THAT(ended, IsOk());
+}
+
+TEST_F(JobsTest, WatchNeedsItsJob) {
+  ASSERT_THAT(engine().Start(), IsOk());
+  const jobs::WatchCallbacks nothing{.on_job = [](const v1::CalibrationJob&) {},
+                                     .on_done = [](const absl::Status&) {}};
+  EXPECT_THAT(
+      WatchCalibrationJob(call(), Named<v1::WatchCalibrationJobRequest>(JobName(kUnknown)), nothing)
+          .status(),
+      HasCode(absl::StatusCode::kNotFound));
+}
+
+}  // namespace
+}  // namespace truepose::services

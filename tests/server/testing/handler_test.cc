@@ -1,0 +1,75 @@
+#include "tests/server/testing/handler_test.h"
+
+#include "absl/strings/str_cat.h"
+#include "server/services/jobs.h"
+#include "server/services/robots.h"
+#include "server/services/sessions.h"
+#include "server/store/calibrations.h"
+
+namespace truepose::testing {
+namespace {
+
+// Internal parameters that move the robot a little; the rest of a calibration does not matter to
+// handlers.
+constexpr char kCalibration[] = R"pb(
+  internal_parameters { name: "dq2" value: 0.001 }
+  covariance: 1e-8
+  residuals { row: 0 before_position_mm: 1.0 after_position_mm: 0.5 }
+  digest: "d1"
+  report { model: "modified_incremental" verdict: "apply" })pb";
+
+}  // namespace
+
+HandlerTest::HandlerTest() {
+  auto store = store::Store::Open({.path = ":memory:"});
+  EXPECT_THAT(store, IsOk());
+  store_ = *std::move(store);
+  const jobs::Runner never = [](const v1::CalibrationInput&, const jobs::RunnerHooks&) {
+    return absl::InternalError("no job runs in tests of handlers");
+  };
+  engine_ = std::make_unique<jobs::JobEngine>(*store_, never, jobs::EngineOptions());
+  call_.reset(new services::CallContext{*store_, *engine_});
+}
+
+void HandlerTest::AddRobot(const std::string& robot_id) {
+  ASSERT_THAT(services::CreateRobot(call(), RobotRequest(robot_id)), IsOk());
+}
+
+void HandlerTest::AddSession(const std::string& session_id, const std::string& robot_id,
+                             int readings) {
+  ASSERT_THAT(services::CreateSession(
+                  call(), SessionRequest(session_id, absl::StrCat("robots/", robot_id))),
+              IsOk());
+  services::AppendState state;
+  ASSERT_THAT(services::AppendReadings(call(), state, Batch(session_id, 0, readings)), IsOk());
+}
+
+void HandlerTest::AddSealedSession(const std::string& session_id, const std::string& robot_id,
+                                   int readings) {
+  AddSession(session_id, robot_id, readings);
+  v1::SealSessionRequest request;
+  request.set_name(absl::StrCat("sessions/", session_id));
+  request.set_reading_count(readings);
+  ASSERT_THAT(services::SealSession(call(), request), IsOk());
+}
+
+v1::Calibration HandlerTest::AddCalibration(const std::string& robot_id,
+                                            const std::string& session_id,
+                                            const std::string& job_id) {
+  v1::CreateCalibrationJobRequest request;
+  request.set_job_id(job_id);
+  request.set_robot(absl::StrCat("robots/", robot_id));
+  request.add_sessions(absl::StrCat("sessions/", session_id));
+  const auto job = services::CreateCalibrationJob(call(), request);
+  EXPECT_THAT(job, IsOk());
+  auto calibration = Parse<v1::Calibration>(kCalibration);
+  calibration.set_nominal_revision(job->nominal_revision());
+  *calibration.mutable_sessions() = job->sessions();
+  const auto stored = store_->Write([&](store::Transaction& transaction) {
+    return store::InsertCalibration(transaction, *job, calibration);
+  });
+  EXPECT_THAT(stored, IsOk());
+  return stored.value_or(v1::Calibration());
+}
+
+}  // namespace truepose::testing

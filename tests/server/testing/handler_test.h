@@ -1,0 +1,41 @@
+// The harness of handlers: a store in memory, an engine whose runner the test decides, no
+// transport.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "gtest/gtest.h"
+#include "server/jobs/engine.h"
+#include "server/services/call_context.h"
+#include "server/store/store.h"
+#include "tests/server/testing/examples.h"
+#include "tests/server/testing/expect_status.h"
+#include "tests/server/testing/text_proto.h"
+
+namespace truepose::testing {
+
+class HandlerTest : public ::testing::Test {
+ protected:
+  HandlerTest();
+
+  const services::CallContext& call() const { return *call_; }
+  store::Store& store() { return *store_; }
+  jobs::JobEngine& engine() { return *engine_; }
+
+  // Through the handlers; a failure fails the test.
+  void AddRobot(const std::string& robot_id);
+  void AddSession(const std::string& session_id, const std::string& robot_id, int readings);
+  void AddSealedSession(const std::string& session_id, const std::string& robot_id,
+                        int readings = 3);
+  // A calibration of `robot_id` from a sealed session, written as the engine would.
+  v1::Calibration AddCalibration(const std::string& robot_id, const std::string& session_id,
+                                 const std::string& job_id);
+
+ private:
+  std::unique_ptr<store::Store> store_;
+  std::unique_ptr<jobs::JobEngine> engine_;  // not started: jobs stay PENDING
+  std::unique_ptr<services::CallContext> call_;
+};
+
+}  // namespace truepose::testing
