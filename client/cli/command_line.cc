@@ -5,6 +5,9 @@
 #include <map>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_split.h"
+#include "absl/strings/string_view.h"
+#include "absl/strings/strip.h"
 #include "client/cli/outcome.h"
 
 namespace truepose::cli {
@@ -48,6 +51,13 @@ const CLI::App* Deepest(const CLI::App* app) {
 std::string FullName(const CLI::App* app) {
   if (app->get_parent() == nullptr) return app->get_name();
   return absl::StrCat(FullName(app->get_parent()), " ", app->get_name());
+}
+
+// The parser says "Could not convert: --poses = abc" and has no other way to ask for the parts.
+absl::Status ConversionFault(absl::string_view what) {
+  absl::ConsumePrefix(&what, "Could not convert: ");
+  const std::vector<std::string> parts = absl::StrSplit(what, absl::MaxSplits(" = ", 1));
+  return OptionFault(parts.front(), parts.back(), "a number; --help shows which");
 }
 
 }  // namespace
@@ -112,8 +122,7 @@ absl::Status CommandLine::Parse(const std::vector<std::string>& arguments, const
     console.out << impl_->app.help();
     *helped = true;
   } catch (const CLI::ConversionError& error) {
-    return OptionFault(FullName(Deepest(&impl_->app)), error.what(),
-                       "a value of the type that --help shows");
+    return ConversionFault(error.what());
   } catch (const CLI::ParseError& error) {
     return UsageError(
         absl::StrCat(error.what(), "\nTry `", FullName(Deepest(&impl_->app)), " --help`."));

@@ -51,7 +51,9 @@ std::vector<int> CountBins(const std::vector<double>& values, double width, int 
   std::vector<int> counts(bins, 0);
   for (const double value : values) {
     if (!std::isfinite(value)) continue;
-    const double bin = std::floor(std::max(0.0, value) / width);
+    // 0.3 belongs to the bin that begins with 3 * 0.1, though the quotient of these doubles is
+    // below 3.
+    const double bin = std::floor(std::max(0.0, value) / width + 1e-9);
     ++counts[static_cast<int>(std::min(bin, bins - 1.0))];
   }
   return counts;

@@ -6,6 +6,7 @@
 #include "absl/strings/str_cat.h"
 #include "client/cli/json.h"
 #include "client/cli/outcome.h"
+#include "convert/digest.h"
 #include "convert/run.h"
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
@@ -95,11 +96,16 @@ std::string LocalRevision(const v1::Nominal& nominal) {
 
 absl::Status CheckBelongsTogether(const v1::Calibration& calibration, const v1::Nominal& nominal,
                                   const std::string& robot_path) {
-  const std::string& made_from = calibration.nominal_revision();
-  if (!absl::StartsWith(made_from, kLocalPrefix) || made_from == LocalRevision(nominal))
-    return absl::OkStatus();
-  return FaultStatus("--robot", absl::StrCat(robot_path, " with nominal ", LocalRevision(nominal)),
-                     absl::StrCat("the robot that was calibrated, ", made_from));
+  const bool fits = calibration.digest().empty()
+                        ? calibration.nominal_revision() == LocalRevision(nominal)
+                        : calibration.digest() == convert::CalibrationDigest(
+                                                      calibration.report().convention(),
+                                                      convert::NominalDigest(nominal), calibration);
+  if (fits) return absl::OkStatus();
+  return FaultStatus(
+      "--robot", absl::StrCat(robot_path, " with nominal ", LocalRevision(nominal)),
+      absl::StrCat("the robot file from which the calibration was made, ",
+                   calibration.nominal_revision(), ", and that calibration unchanged"));
 }
 
 }  // namespace truepose::cli

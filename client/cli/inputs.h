@@ -38,8 +38,8 @@ absl::StatusOr<v1::Observe> ParseObserve(const std::string& text);
 // nominal's digest.
 std::string LocalRevision(const v1::Nominal& nominal);
 
-// A calibration made from another robot file is a fault of `--robot`. One that a server made names
-// a revision and can't be told this way; convert compares what it needs.
+// A calibration made from another robot file, or whose file was changed, is a fault of `--robot`:
+// its digest does not fit. A simulated truth has no digest and is told by its revision.
 absl::Status CheckBelongsTogether(const v1::Calibration& calibration, const v1::Nominal& nominal,
                                   const std::string& robot_path);
 

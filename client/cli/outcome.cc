@@ -1,6 +1,7 @@
 #include "client/cli/outcome.h"
 
 #include "absl/strings/cord.h"
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_replace.h"
 #include "client/cli/json.h"
@@ -41,6 +42,19 @@ absl::Status AsInputFault(const absl::Status& status) {
 absl::Status WithHint(const absl::Status& status, absl::StatusCode code, absl::string_view hint) {
   if (status.code() != code) return status;
   return Copy(status, code, absl::StrCat(status.message(), "\n", hint));
+}
+
+absl::Status RenameFields(const absl::Status& status, const Renaming& renaming) {
+  FaultList faults;
+  for (Fault fault : FaultsOf(status)) {
+    for (const auto& [beginning, name] : renaming) {
+      if (!absl::StartsWith(fault.field, beginning)) continue;
+      fault.field.replace(0, beginning.size(), name);
+      break;
+    }
+    faults.Add(std::move(fault));
+  }
+  return faults.empty() ? status : faults.ToStatus(status.code());
 }
 
 int ExitCodeOf(const absl::Status& status) {

@@ -1,6 +1,10 @@
 // How a command ended: what people, programs and the shell are told.
 #pragma once
 
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "absl/status/status.h"
 #include "absl/strings/string_view.h"
 #include "client/cli/console.h"
@@ -20,6 +24,12 @@ absl::Status AsInputFault(const absl::Status& status);
 
 // `hint` on a line of its own after the message when the status has that code; faults are kept.
 absl::Status WithHint(const absl::Status& status, absl::StatusCode code, absl::string_view hint);
+
+// Faults name fields of messages; people typed options. Replaces the beginning of each field by the
+// first pair that fits, such as {"options.split", "--split"}; a status without faults stays as it
+// is.
+using Renaming = std::vector<std::pair<std::string, std::string>>;
+absl::Status RenameFields(const absl::Status& status, const Renaming& renaming);
 
 // client/exit_codes.h.
 int ExitCodeOf(const absl::Status& status);

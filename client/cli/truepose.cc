@@ -35,6 +35,14 @@ bool AsksForJson(const std::vector<std::string>& arguments) {
   return std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();
 }
 
+// A result that did not arrive (a full disk, a reader that went away) is no success.
+absl::Status Flush(const Console& console) {
+  if (console.out.flush()) return absl::OkStatus();
+  const absl::Status status = absl::InternalError("standard output can't be written");
+  PrintError(console, false, status);
+  return status;
+}
+
 }  // namespace
 
 int RunTruepose(const std::vector<std::string>& arguments, const Console& console) {
@@ -43,8 +51,7 @@ int RunTruepose(const std::vector<std::string>& arguments, const Console& consol
   AddAllCommands(line.root());
   const absl::Status status = line.Run(arguments, console);
   PrintError(console, AsksForJson(arguments), status);
-  console.out.flush();
-  return ExitCodeOf(status);
+  return ExitCodeOf(status.ok() ? Flush(console) : status);
 }
 
 }  // namespace truepose::cli

@@ -74,6 +74,17 @@ struct Parsed {
 
 }  // namespace
 
+absl::Status AsTyped(const absl::Status& status, const CalibrateOptions& options) {
+  Renaming renaming = {{"options.split", "--split"},
+                       {"options.group_column", "--group"},
+                       {"options.nominal_tool", "--tool"},
+                       {"options.observe", "--observe"}};
+  for (size_t i = 0; i < options.sessions.size(); ++i) {
+    renaming.push_back({absl::StrCat("sessions[", i, "]"), options.sessions[i]});
+  }
+  return RenameFields(status, renaming);
+}
+
 std::string StageText(const v1::JobProgress& progress) {
   if (progress.stage() != "identification") return progress.stage();
   return absl::StrCat(progress.stage(), ", iteration ", progress.iteration());

@@ -26,6 +26,10 @@ struct CalibrateOptions {
 absl::Status CalibrateLocally(const Invocation& invocation, const CalibrateOptions& options);
 absl::Status CalibrateOnServer(const Invocation& invocation, const CalibrateOptions& options);
 
+// Faults of the message in the words of the command line: `--split`, `--tool`, and the sessions as
+// they were typed.
+absl::Status AsTyped(const absl::Status& status, const CalibrateOptions& options);
+
 // "identification, iteration 3"
 std::string StageText(const v1::JobProgress& progress);
 

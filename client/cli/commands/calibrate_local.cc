@@ -19,7 +19,7 @@ absl::StatusOr<formats::RobotFile> LoadRobotAndCheckOptions(const CalibrateOptio
   FaultList faults;
   absl::StatusOr<formats::RobotFile> robot = LoadRobot(options.robot);
   faults.AddAll(robot.status());
-  faults.AddAll(convert::ValidateOptions(options.calibration), "options.");
+  faults.AddAll(AsTyped(convert::ValidateOptions(options.calibration), options));
   if (!faults.empty()) return faults.ToStatus();
   return robot;
 }
@@ -63,8 +63,9 @@ std::string NextStep(const CalibrateOptions& options) {
 absl::Status CalibrateLocally(const Invocation& invocation, const CalibrateOptions& options) {
   TRUEPOSE_ASSIGN_OR_RETURN(const v1::CalibrationInput input, LoadInput(invocation, options));
   TRUEPOSE_ASSIGN_OR_RETURN(std::optional<OutputFile> output, OpenOutput(options));
-  TRUEPOSE_ASSIGN_OR_RETURN(const v1::Calibration calibration, RunWithProgress(invocation, input));
-  return Deliver(invocation, calibration, std::move(output), NextStep(options));
+  const absl::StatusOr<v1::Calibration> calibration = RunWithProgress(invocation, input);
+  if (!calibration.ok()) return AsTyped(calibration.status(), options);
+  return Deliver(invocation, *calibration, std::move(output), NextStep(options));
 }
 
 }  // namespace truepose::cli

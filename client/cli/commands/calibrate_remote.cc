@@ -49,11 +49,12 @@ absl::Status ReplyJob(const Invocation& invocation, const v1::CalibrationJob& jo
 
 absl::Status CalibrateAndDeliver(const Invocation& invocation, const CalibrateOptions& options,
                                  const client::Client& client) {
+  const InterruptScope interrupt;
   TRUEPOSE_ASSIGN_OR_RETURN(std::optional<OutputFile> output, OpenOutput(options));
   TRUEPOSE_ASSIGN_OR_RETURN(const v1::CalibrationJob created, CreateJob(client, options));
   if (options.no_wait) return ReplyJob(invocation, created);
   TRUEPOSE_ASSIGN_OR_RETURN(const v1::CalibrationJob job,
-                            WaitWithProgress(invocation, client, created.name()));
+                            WaitWithProgress(invocation, client, created.name(), interrupt));
   TRUEPOSE_RETURN_IF_ERROR(StatusOfJob(job));
   v1::GetCalibrationRequest request;
   request.set_name(job.calibration());
@@ -70,7 +71,7 @@ absl::Status CalibrateAndDeliver(const Invocation& invocation, const CalibrateOp
 absl::Status CalibrateOnServer(const Invocation& invocation, const CalibrateOptions& options) {
   TRUEPOSE_RETURN_IF_ERROR(CheckNames(options));
   return WithServer(invocation, kHint, [&](const client::Client& client) {
-    return CalibrateAndDeliver(invocation, options, client);
+    return AsTyped(CalibrateAndDeliver(invocation, options, client), options);
   });
 }
 

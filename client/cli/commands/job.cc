@@ -12,6 +12,7 @@
 #include "client/cli/report.h"
 #include "client/cli/table.h"
 #include "client/pager.h"
+#include "client/wait_for_job.h"
 #include "core/base/status_macros.h"
 
 namespace truepose::cli {
@@ -32,11 +33,18 @@ std::string JobText(const v1::CalibrationJob& job) {
                       calibration, "\n");
 }
 
-// The exit code tells how the job ended, also when it ended long ago.
+// The exit code tells how the job ended, also when it ended long ago. The look before the wait
+// tells at once when there is no such job or no server; only a server that has answered is waited
+// for.
 absl::Status Watch(const Invocation& invocation, const std::string& name) {
   return WithServer(invocation, kJobHint, [&](const client::Client& client) -> absl::Status {
-    TRUEPOSE_ASSIGN_OR_RETURN(const v1::CalibrationJob job,
-                              WaitWithProgress(invocation, client, JobName(name)));
+    v1::GetCalibrationJobRequest request;
+    request.set_name(JobName(name));
+    TRUEPOSE_ASSIGN_OR_RETURN(v1::CalibrationJob job, client.GetCalibrationJob(request));
+    if (!client::IsTerminal(job.state())) {
+      const InterruptScope interrupt;
+      TRUEPOSE_ASSIGN_OR_RETURN(job, WaitWithProgress(invocation, client, job.name(), interrupt));
+    }
     TRUEPOSE_RETURN_IF_ERROR(StatusOfJob(job));
     return Reply(invocation, job, [&] { return JobText(job); });
   });

@@ -49,6 +49,17 @@ convert::SimulationOptions InSiUnits(const Options& options) {
   return simulation;
 }
 
+// The core speaks of SI figures.
+absl::Status AsTyped(const absl::Status& status) {
+  return RenameFields(status, {{"poses", "--poses"},
+                               {"length_error_sd_m", "--length-error-mm (in m)"},
+                               {"angle_error_sd_rad", "--angle-error-deg (in rad)"},
+                               {"position_noise_sd_m", "--noise-mm (in m)"},
+                               {"rotation_noise_sd_rad", "--noise-deg (in rad)"},
+                               {"joint_noise_sd", "--joint-noise-deg (in rad)"},
+                               {"encoder_resolution", "--encoder-resolution-deg (in rad)"}});
+}
+
 absl::StatusOr<v1::Nominal> RobotToSimulate(const Options& options) {
   if (options.robot.empty() != options.measuring_robot) {
     return UsageError("simulate needs a robot: either FILE or --measuring-robot");
@@ -106,13 +117,14 @@ std::string Text(const Options& options, const convert::Simulation& simulation,
 
 absl::Status Simulate(const Invocation& invocation, const Options& options) {
   TRUEPOSE_ASSIGN_OR_RETURN(const v1::Nominal nominal, RobotToSimulate(options));
-  TRUEPOSE_ASSIGN_OR_RETURN(const convert::Simulation simulation,
-                            convert::RunSimulation(nominal, InSiUnits(options)));
-  const auto& readings = simulation.session.readings();
-  const std::string csv = formats::WriteSessionFile(nominal, simulation.session.session(),
+  const absl::StatusOr<convert::Simulation> simulation =
+      convert::RunSimulation(nominal, InSiUnits(options));
+  if (!simulation.ok()) return AsTyped(simulation.status());
+  const auto& readings = simulation->session.readings();
+  const std::string csv = formats::WriteSessionFile(nominal, simulation->session.session(),
                                                     {readings.begin(), readings.end()});
-  TRUEPOSE_RETURN_IF_ERROR(WriteFiles(options, nominal, simulation, csv));
-  return Reply(invocation, simulation.session, [&] { return Text(options, simulation, csv); });
+  TRUEPOSE_RETURN_IF_ERROR(WriteFiles(options, nominal, *simulation, csv));
+  return Reply(invocation, simulation->session, [&] { return Text(options, *simulation, csv); });
 }
 
 void AddFigures(const Command& simulate, Options* options) {

@@ -2,7 +2,6 @@
 
 #include "absl/strings/str_cat.h"
 #include "client/cli/commands/calibrate.h"
-#include "client/cli/interrupt.h"
 #include "client/cli/names.h"
 #include "client/cli/outcome.h"
 #include "client/cli/progress.h"
@@ -18,9 +17,8 @@ std::string StillRunningHint(const std::string& job) {
 }
 
 absl::StatusOr<v1::CalibrationJob> Wait(const Invocation& invocation, const client::Client& client,
-                                        const std::string& job) {
+                                        const std::string& job, const InterruptScope& interrupt) {
   ProgressBar bar(invocation.console, "calibrate");
-  const InterruptScope interrupt;
   client::WaitOptions options;
   options.on_change = [&](const v1::CalibrationJob& now) {
     bar.Show(now.progress().fraction(),
@@ -48,8 +46,9 @@ absl::Status StatusOfError(const v1::JobError& error) {
 
 absl::StatusOr<v1::CalibrationJob> WaitWithProgress(const Invocation& invocation,
                                                     const client::Client& client,
-                                                    const std::string& job) {
-  absl::StatusOr<v1::CalibrationJob> ended = Wait(invocation, client, job);
+                                                    const std::string& job,
+                                                    const InterruptScope& interrupt) {
+  absl::StatusOr<v1::CalibrationJob> ended = Wait(invocation, client, job, interrupt);
   const absl::StatusCode code = ended.status().code();
   if (code != absl::StatusCode::kCancelled && code != absl::StatusCode::kUnavailable) return ended;
   return WithHint(ended.status(), code, StillRunningHint(ShortName(job)));

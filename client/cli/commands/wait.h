@@ -6,6 +6,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "client/cli/command_line.h"
+#include "client/cli/interrupt.h"
 #include "client/client.h"
 #include "truepose/v1/calibration.pb.h"
 
@@ -15,9 +16,11 @@ namespace truepose::cli {
 // @returns kCancelled after Ctrl-C and kUnavailable when the server stays away; the job is left
 // running then, and the
 //   message says how to watch it.
+// @param interrupt begun before the job was created, so that no Ctrl-C falls between the two.
 absl::StatusOr<v1::CalibrationJob> WaitWithProgress(const Invocation& invocation,
                                                     const client::Client& client,
-                                                    const std::string& job);
+                                                    const std::string& job,
+                                                    const InterruptScope& interrupt);
 
 // What an ended job means: OK, kCancelled, or the job's error with its faults.
 absl::Status StatusOfJob(const v1::CalibrationJob& job);
