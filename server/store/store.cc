@@ -86,13 +86,15 @@ absl::Status StoreOptions::Validate() const {
 // Destroyed from the last to the first: connections, then files, then the lock.
 struct Store::Parts {
   const Clock* clock = nullptr;
-  std::unique_ptr<LockFile> lock;             // nullptr in memory
-  std::unique_ptr<NewDatabase> new_database;  // only while opening
+  // nullptr in memory.
+  std::unique_ptr<LockFile> lock;
+  std::unique_ptr<NewDatabase> new_database;
   std::string epoch;
-  std::unique_ptr<sql::Connection> connection;  // only while opening
+  // Only while opening.
+  std::unique_ptr<sql::Connection> connection;
   std::unique_ptr<Writer> writer;
-  std::unique_ptr<ReaderPool>
-      readers;  // nullptr in memory, where all share the writer's connection
+  // nullptr in memory, where all share the writer's connection.
+  std::unique_ptr<ReaderPool> readers;
 };
 
 namespace {
