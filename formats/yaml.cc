@@ -110,9 +110,15 @@ class TreeBuilder : public YAML::EventHandler {
   YamlNode root_;
 };
 
+// Without line ends at the end, where the YAML library would take them for a closing quote that is
+// missing.
+std::string_view Trimmed(std::string_view text) {
+  return text.substr(0, text.find_last_not_of(" \t\r\n") + 1);
+}
+
 // Throws what the YAML library throws.
 YamlNode Build(std::string_view text, std::string_view file, FaultList& faults) {
-  std::istringstream stream{std::string(text)};
+  std::istringstream stream{std::string(Trimmed(text))};
   YAML::Parser parser(stream);
   TreeBuilder builder(file, faults);
   parser.HandleNextDocument(builder);

@@ -128,7 +128,8 @@ TEST(CsvTest, WritesCellsThatReadBack) {
   const std::vector<std::string> cells = {
       "plain", "a,b",  "x;y", "say \"so\"", " blanks ", "two\nlines", "\xEF\xBB\xBFmark",
       "",      "tab\t"};
-  const CsvTable table = Parse("1,2,3,4,5,6,7,8,9\n" + CsvLine(cells));
+  const std::string text = "1,2,3,4,5,6,7,8,9\n" + CsvLine(cells);
+  const CsvTable table = Parse(text);
   ASSERT_EQ(table.rows.size(), 1);
   EXPECT_EQ(std::vector<std::string>(table.rows[0].cells.begin(), table.rows[0].cells.end()),
             cells);
