@@ -1,7 +1,9 @@
 #include "client/append_readings.h"
 
 #include <algorithm>
+#include <condition_variable>
 #include <memory>
+#include <mutex>
 #include <thread>
 
 #include "absl/strings/str_cat.h"
@@ -15,6 +17,37 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kPause{200};  // between connections
 
+// How many batches may be under way.
+class Window {
+ public:
+  explicit Window(int size) : free_(size) {}
+
+  // Waits for room. false: the window was closed.
+  bool Enter() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return closed_ || free_ > 0; });
+    if (closed_) return false;
+    --free_;
+    return true;
+  }
+  void Leave() {
+    std::lock_guard lock(mutex_);
+    ++free_;
+    changed_.notify_one();
+  }
+  void Close() {
+    std::lock_guard lock(mutex_);
+    closed_ = true;
+    changed_.notify_one();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  int free_;
+  bool closed_ = false;
+};
+
 // One upload over as many connections as it takes.
 class Upload {
  public:
@@ -26,18 +59,16 @@ class Upload {
 
  private:
   int total() const { return static_cast<int>(readings_.size()); }
+  int EndOfBatch(int row) const { return std::min(row + options_.batch_size, total()); }
+  // Sends the rows from `row` over one stream and takes its acknowledgements.
   absl::Status SendFrom(int row);
-  // Sends the next batch; false: the stream is broken.
-  bool Write(AppendStream& stream);
-  // Waits for the next acknowledgement; false: there is none.
-  bool Await(AppendStream& stream);
+  v1::AppendReadingsRequest Batch(int row) const;
+  void Take(const v1::AppendReadingsResponse& acknowledgement);
 
   const Client& client_;
   const std::string& session_;
   const std::vector<v1::Reading>& readings_;
   const AppendOptions& options_;
-  int sent_ = 0;          // rows below were written to the present stream
-  int in_flight_ = 0;     // batches written and not acknowledged
   int acknowledged_ = 0;  // rows below are stored with our content
   int stored_ = 0;        // what the session holds by the last acknowledgement
   Clock::time_point last_answer_ = Clock::now();
@@ -55,43 +86,43 @@ absl::StatusOr<int> Upload::Run() {
   return stored_;
 }
 
+// Writes in a thread of its own: a transport without buffers takes no batch while its
+// acknowledgements wait.
 absl::Status Upload::SendFrom(int row) {
-  sent_ = row;
-  in_flight_ = 0;
   const std::unique_ptr<AppendStream> stream = client_.OpenAppendStream();
-  bool alive = true;
-  while (alive && sent_ < total()) {
-    alive = in_flight_ < options_.batches_in_flight ? Write(*stream) : Await(*stream);
+  Window window(options_.batches_in_flight);
+  std::thread writer([&, row]() mutable {
+    bool alive = true;
+    for (; alive && row < total() && window.Enter(); row = EndOfBatch(row))
+      alive = stream->Write(Batch(row));
+    stream->WritesDone();
+  });
+  v1::AppendReadingsResponse acknowledgement;
+  while (stream->Read(&acknowledgement)) {
+    Take(acknowledgement);
+    window.Leave();
   }
-  if (alive) stream->WritesDone();
-  while (Await(*stream)) {
-  }
+  window.Close();
+  writer.join();
   const absl::Status status = stream->Finish();
   if (!status.ok() || acknowledged_ == total()) return status;
   return absl::UnavailableError("the server ended the upload before its end");
 }
 
-bool Upload::Write(AppendStream& stream) {
+v1::AppendReadingsRequest Upload::Batch(int row) const {
   v1::AppendReadingsRequest batch;
   batch.set_session(session_);
-  const int end = std::min(sent_ + options_.batch_size, total());
-  for (int row = sent_; row < end; ++row) *batch.add_readings() = readings_[row];
-  sent_ = end;
-  ++in_flight_;
-  return stream.Write(batch);
+  const int end = EndOfBatch(row);
+  for (; row < end; ++row) *batch.add_readings() = readings_[row];
+  return batch;
 }
 
-bool Upload::Await(AppendStream& stream) {
-  v1::AppendReadingsResponse acknowledgement;
-  if (!stream.Read(&acknowledgement)) return false;
-  --in_flight_;
+void Upload::Take(const v1::AppendReadingsResponse& acknowledgement) {
   last_answer_ = Clock::now();
   stored_ = acknowledgement.reading_count();
-  // Acknowledgements come in the order of the batches, which are of batch_size rows but for the
-  // last.
-  acknowledged_ = std::min(acknowledged_ + options_.batch_size, total());
+  // Acknowledgements come in the order of the batches.
+  acknowledged_ = EndOfBatch(acknowledged_);
   if (options_.on_progress) options_.on_progress(acknowledged_, total());
-  return true;
 }
 
 absl::StatusOr<int> CountOf(const Client& client, const std::string& session) {

@@ -19,7 +19,7 @@ struct AppendOptions {
   // acknowledgement.
   std::chrono::milliseconds patience{30'000};
   // After each acknowledgement: how many of `total` readings are safe in the store.
-  std::function<void(int acknowledged, int total)> on_progress;
+  std::function<void(int acknowledged, int total)> on_progress = {};
 };
 
 // Sends `readings` (rows 0, 1, 2...) to an open session and returns how many the session holds

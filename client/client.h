@@ -103,7 +103,7 @@ class Client {
   std::unique_ptr<Impl> impl_;
 };
 
-// Batches of readings in, an acknowledgement a batch out. For one thread.
+// Batches of readings in, an acknowledgement a batch out. One thread may write while another reads.
 class AppendStream {
  public:
   virtual ~AppendStream() = default;

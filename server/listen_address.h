@@ -9,8 +9,8 @@
 namespace truepose::server {
 
 struct ListenAddress {
-  std::string unix_path;  // set, or
-  std::string host;       // a loopback address without brackets
+  std::string unix_path = {};  // set, or
+  std::string host = {};       // a loopback address without brackets
   int port = 0;           // 0: any that is free
 };
 

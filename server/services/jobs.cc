@@ -40,7 +40,7 @@ absl::Status CheckRequest(const v1::CreateCalibrationJobRequest& request) {
   faults.AddAll(store::CheckUuid(request.job_id(), "job_id"));
   faults.AddAll(store::ParseRobotName(request.robot(), "robot").status());
   faults.AddAll(CheckSessionNames(request));
-  faults.AddAll(convert::ValidateOptions(request.options()), "options.");
+  faults.AddAll(convert::ValidateOptions(request.options()));
   return faults.ToStatus();
 }
 

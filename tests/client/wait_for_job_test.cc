@@ -20,8 +20,8 @@ v1::CalibrationJob Job(v1::JobState state) {
 
 // A stream of the script: what it tells, then how it ends.
 struct Told {
-  std::vector<v1::JobState> states;
-  grpc::Status end;
+  std::vector<v1::JobState> states = {};
+  grpc::Status end = grpc::Status::OK;
   bool hangs = false;  // until the client leaves
 };
 

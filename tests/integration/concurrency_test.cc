@@ -15,7 +15,7 @@ namespace {
 using testing::Import;
 using testing::IsOk;
 using testing::JobRequest;
-using testing::SimulatedSession;
+using testing::MeasuringSession;
 using testing::Uuid;
 
 class ConcurrencyTest : public testing::ServerFixture {};
@@ -35,7 +35,7 @@ TEST_F(ConcurrencyTest, RobotsDoNotMix) {
   InParallel(kRobots, [&](int i) {
     const client::Client client = NewClient();
     const std::string robot = absl::StrCat("arm-", i);
-    ASSERT_NO_FATAL_FAILURE(Import(client, robot, Uuid(i), SimulatedSession(40 + i, i)));
+    ASSERT_NO_FATAL_FAILURE(Import(client, robot, Uuid(i), MeasuringSession(40 + i, i)));
     ASSERT_THAT(client.CreateCalibrationJob(JobRequest(Uuid(100 + i), robot, Uuid(i))), IsOk());
     const auto job = client::WaitForJob(client, absl::StrCat("jobs/", Uuid(100 + i)));
     ASSERT_THAT(job, IsOk());
@@ -54,9 +54,9 @@ TEST_F(ConcurrencyTest, RobotsDoNotMix) {
 // repeats.
 TEST_F(ConcurrencyTest, TwoUploadsOfOneSessionMakeOne) {
   const client::Client client = NewClient();
-  const auto input = SimulatedSession(400, 1);
+  const auto input = MeasuringSession(400, 1);
   const std::vector<v1::Reading> readings(input.readings().begin(), input.readings().end());
-  Import(client, "arm", Uuid(1), SimulatedSession(5, 1));
+  Import(client, "arm", Uuid(1), MeasuringSession(5, 1));
   v1::CreateSessionRequest session;
   session.set_session_id(Uuid(2));
   session.mutable_session()->set_robot("robots/arm");

@@ -20,8 +20,8 @@ namespace {
 using testing::Import;
 using testing::IsOk;
 using testing::JobRequest;
+using testing::MeasuringSession;
 using testing::ServerProcess;
-using testing::SimulatedSession;
 using testing::TempDir;
 using testing::Uuid;
 
@@ -64,9 +64,9 @@ std::vector<v1::Reading> StoredReadings(const client::Client& client, const std:
 // that can't go on.
 TEST_F(KillTest, NothingAcknowledgedIsLostDuringAnImport) {
   auto process = Start();
-  const auto input = SimulatedSession(1500, 1);
+  const auto input = MeasuringSession(1500, 1);
   const std::vector<v1::Reading> readings(input.readings().begin(), input.readings().end());
-  ASSERT_NO_FATAL_FAILURE(Import(NewClient(*process), "arm", Uuid(1), SimulatedSession(5, 1)));
+  ASSERT_NO_FATAL_FAILURE(Import(NewClient(*process), "arm", Uuid(1), MeasuringSession(5, 1)));
   v1::CreateSessionRequest session;
   session.set_session_id(Uuid(2));
   session.mutable_session()->set_robot("robots/arm");
@@ -108,7 +108,7 @@ TEST_F(KillTest, NothingAcknowledgedIsLostDuringAnImport) {
 // Killed twice at most: a job begun three times without an end is FAILED by design.
 TEST_F(KillTest, AJobFinishesThoughItsServerDies) {
   auto process = Start();
-  ASSERT_NO_FATAL_FAILURE(Import(NewClient(*process), "arm", Uuid(1), SimulatedSession(600, 1)));
+  ASSERT_NO_FATAL_FAILURE(Import(NewClient(*process), "arm", Uuid(1), MeasuringSession(600, 1)));
   for (int round = 0; round < 5; ++round) {
     const std::string job_id = Uuid(100 + round);
     ASSERT_THAT(NewClient(*process).CreateCalibrationJob(JobRequest(job_id, "arm", Uuid(1))),

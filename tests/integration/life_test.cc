@@ -17,14 +17,14 @@ using testing::HasFields;
 using testing::Import;
 using testing::IsOk;
 using testing::JobRequest;
-using testing::SimulatedSession;
+using testing::MeasuringSession;
 using testing::Uuid;
 
 class LifeTest : public testing::ServerFixture {
  protected:
   // Imports a session and calibrates; returns the name of the calibration.
   std::string Calibrate(int poses) {
-    Import(client_, "arm", Uuid(1), SimulatedSession(poses, 1));
+    Import(client_, "arm", Uuid(1), MeasuringSession(poses, 1));
     const auto created = client_.CreateCalibrationJob(JobRequest(Uuid(2), "arm", Uuid(1)));
     EXPECT_THAT(created, IsOk());
     const auto job = client::WaitForJob(client_, absl::StrCat("jobs/", Uuid(2)));
@@ -70,7 +70,7 @@ TEST_F(LifeTest, SameBitsAsWithoutAServer) {
   ASSERT_THAT(remote, IsOk());
   v1::CalibrationInput input;
   *input.mutable_nominal() = convert::MeasuringRobot();
-  *input.add_sessions() = SimulatedSession(60, 1);
+  *input.add_sessions() = MeasuringSession(60, 1);
   input.mutable_options()->set_split("even-odd");
   const auto local = convert::RunCalibration(input);
   ASSERT_THAT(local, IsOk());
@@ -85,7 +85,7 @@ TEST_F(LifeTest, SameBitsAsWithoutAServer) {
 
 // Would catch a watch that tells nothing between the beginning and the end.
 TEST_F(LifeTest, AWatchTellsHowTheJobGoes) {
-  Import(client_, "arm", Uuid(1), SimulatedSession(200, 1));
+  Import(client_, "arm", Uuid(1), MeasuringSession(200, 1));
   ASSERT_THAT(client_.CreateCalibrationJob(JobRequest(Uuid(2), "arm", Uuid(1))), IsOk());
   std::vector<v1::JobState> states;
   const auto job =
@@ -101,7 +101,7 @@ TEST_F(LifeTest, AWatchTellsHowTheJobGoes) {
 TEST_F(LifeTest, ACalibrationIsEvaluatedOnAnotherSession) {
   v1::EvaluateRequest request;
   request.set_calibration(Calibrate(80));
-  Import(client_, "arm", Uuid(3), SimulatedSession(40, 1));
+  Import(client_, "arm", Uuid(3), MeasuringSession(40, 1));
   request.set_session(absl::StrCat("sessions/", Uuid(3)));
   const auto other = client_.Evaluate(request);
   ASSERT_THAT(other, IsOk());
@@ -131,12 +131,12 @@ TEST_F(LifeTest, FaultsArriveWithTheirFields) {
 
 // Would catch an error too large for its frame: 200 faults have to arrive.
 TEST_F(LifeTest, ManyFaultsArrive) {
-  Import(client_, "arm", Uuid(1), SimulatedSession(20, 1));
+  Import(client_, "arm", Uuid(1), MeasuringSession(20, 1));
   v1::CreateSessionRequest session;
   session.set_session_id(Uuid(4));
   session.mutable_session()->set_robot("robots/arm");
   ASSERT_THAT(client_.CreateSession(session), IsOk());
-  auto input = SimulatedSession(250, 2);
+  auto input = MeasuringSession(250, 2);
   std::vector<v1::Reading> readings(input.readings().begin(), input.readings().end());
   for (v1::Reading& reading : readings) reading.add_joints_measured(0.0);
   const auto refused =
@@ -148,7 +148,7 @@ TEST_F(LifeTest, ManyFaultsArrive) {
 
 // Would catch a failed job that hides why, or a half-written calibration.
 TEST_F(LifeTest, AJobThatCannotSucceedFailsWithItsFaults) {
-  Import(client_, "arm", Uuid(1), SimulatedSession(2, 1));
+  Import(client_, "arm", Uuid(1), MeasuringSession(2, 1));
   ASSERT_THAT(client_.CreateCalibrationJob(JobRequest(Uuid(2), "arm", Uuid(1))), IsOk());
   const auto job = client::WaitForJob(client_, absl::StrCat("jobs/", Uuid(2)));
   ASSERT_THAT(job, IsOk());
@@ -163,7 +163,7 @@ TEST_F(LifeTest, AJobThatCannotSucceedFailsWithItsFaults) {
 
 // Would catch a page of readings that the real client can't walk.
 TEST_F(LifeTest, ReadingsComeBackAsTheyWereSent) {
-  const auto input = SimulatedSession(75, 1);
+  const auto input = MeasuringSession(75, 1);
   Import(client_, "arm", Uuid(1), input);
   v1::ListReadingsRequest request;
   request.set_session(absl::StrCat("sessions/", Uuid(1)));

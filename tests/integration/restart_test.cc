@@ -14,7 +14,7 @@ namespace {
 using testing::Import;
 using testing::IsOk;
 using testing::JobRequest;
-using testing::SimulatedSession;
+using testing::MeasuringSession;
 using testing::Uuid;
 
 class RestartTest : public testing::ServerFixture {};
@@ -23,7 +23,7 @@ class RestartTest : public testing::ServerFixture {};
 TEST_F(RestartTest, JobsAndWaitsGoOn) {
   constexpr int kJobs = 4;
   const client::Client client = NewClient();
-  Import(client, "arm", Uuid(1), SimulatedSession(300, 1));
+  Import(client, "arm", Uuid(1), MeasuringSession(300, 1));
   std::vector<std::thread> waits;
   std::vector<v1::JobState> ends(kJobs);
   for (int i = 0; i < kJobs; ++i) {
@@ -43,12 +43,12 @@ TEST_F(RestartTest, JobsAndWaitsGoOn) {
 // moment.
 TEST_F(RestartTest, AnUploadGoesOn) {
   const client::Client client = NewClient();
-  Import(client, "arm", Uuid(1), SimulatedSession(5, 1));
+  Import(client, "arm", Uuid(1), MeasuringSession(5, 1));
   v1::CreateSessionRequest session;
   session.set_session_id(Uuid(2));
   session.mutable_session()->set_robot("robots/arm");
   ASSERT_THAT(client.CreateSession(session), IsOk());
-  const auto input = SimulatedSession(500, 1);
+  const auto input = MeasuringSession(500, 1);
   const std::vector<v1::Reading> readings(input.readings().begin(), input.readings().end());
   absl::Notification half;
   client::AppendOptions options{.batch_size = 5};

@@ -8,7 +8,7 @@
 
 namespace truepose::testing {
 
-v1::SessionInput SimulatedSession(int poses, unsigned seed) {
+v1::SessionInput MeasuringSession(int poses, unsigned seed) {
   convert::SimulationOptions options;
   options.poses = poses;
   options.seed = seed;

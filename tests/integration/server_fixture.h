@@ -12,8 +12,8 @@
 
 namespace truepose::testing {
 
-// A simulated session of the measuring robot.
-v1::SessionInput SimulatedSession(int poses, unsigned seed);
+// A simulated session of the measuring robot; the same seed gives the same errors of the robot.
+v1::SessionInput MeasuringSession(int poses, unsigned seed);
 
 // "00000000-0000-4000-8000-0000000000NN"
 std::string Uuid(int number);

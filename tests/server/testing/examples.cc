@@ -1,6 +1,7 @@
 #include "tests/server/testing/examples.h"
 
 #include "absl/strings/str_cat.h"
+#include "convert/run.h"
 #include "tests/server/testing/text_proto.h"
 
 namespace truepose::testing {
@@ -57,6 +58,15 @@ v1::CreateSessionRequest SessionRequest(const std::string& session_id, const std
   request.mutable_session()->set_robot(robot);
   request.mutable_session()->set_display_name("first measurement");
   return request;
+}
+
+v1::SessionInput SimulatedSession(int poses, unsigned seed) {
+  convert::SimulationOptions options;
+  options.poses = poses;
+  options.seed = seed;
+  const auto simulation = convert::RunSimulation(SixAxes(), options);
+  EXPECT_TRUE(simulation.ok()) << simulation.status();
+  return simulation.ok() ? simulation->session : v1::SessionInput();
 }
 
 v1::AppendReadingsRequest Batch(const std::string& session_id, int first, int count) {

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "truepose/v1/calibration.pb.h"
 #include "truepose/v1/robot.pb.h"
 #include "truepose/v1/services.pb.h"
 #include "truepose/v1/session.pb.h"
@@ -20,6 +21,12 @@ v1::Nominal SixAxes(const std::string& serial = "1");
 
 v1::CreateRobotRequest RobotRequest(const std::string& robot_id, const std::string& serial = "1");
 v1::CreateSessionRequest SessionRequest(const std::string& session_id, const std::string& robot);
+
+inline constexpr int kCalibrationPoses = 60;
+
+// What a robot like SixAxes() measures whose parameters are a little off; the same errors for the
+// same seed.
+v1::SessionInput SimulatedSession(int poses, unsigned seed);
 
 // Rows `first` to `first + count - 1` with joints and a position that differ from row to row.
 v1::AppendReadingsRequest Batch(const std::string& session_id, int first, int count);

@@ -1,6 +1,7 @@
 #include "tests/server/testing/handler_test.h"
 
 #include "absl/strings/str_cat.h"
+#include "convert/run.h"
 #include "server/services/jobs.h"
 #include "server/services/robots.h"
 #include "server/services/sessions.h"
@@ -9,14 +10,18 @@
 namespace truepose::testing {
 namespace {
 
-// Internal parameters that move the robot a little; the rest of a calibration does not matter to
-// handlers.
-constexpr char kCalibration[] = R"pb(
-  internal_parameters { name: "dq2" value: 0.001 }
-  covariance: 1e-8
-  residuals { row: 0 before_position_mm: 1.0 after_position_mm: 0.5 }
-  digest: "d1"
-  report { model: "modified_incremental" verdict: "apply" })pb";
+// Made once by a real calibration, since evaluation and compensation look into it.
+const v1::Calibration& ExampleCalibration() {
+  static const auto& calibration = *new v1::Calibration([] {
+    v1::CalibrationInput input;
+    *input.mutable_nominal() = SixAxes();
+    *input.add_sessions() = SimulatedSession(kCalibrationPoses, 1);
+    const auto result = convert::RunCalibration(input);
+    EXPECT_THAT(result, IsOk());
+    return result.value_or(v1::Calibration());
+  }());
+  return calibration;
+}
 
 }  // namespace
 
@@ -44,9 +49,26 @@ void HandlerTest::AddSession(const std::string& session_id, const std::string& r
   ASSERT_THAT(services::AppendReadings(call(), state, Batch(session_id, 0, readings)), IsOk());
 }
 
+void HandlerTest::AddSimulatedSession(const std::string& session_id, const std::string& robot_id,
+                                      int poses) {
+  ASSERT_THAT(services::CreateSession(
+                  call(), SessionRequest(session_id, absl::StrCat("robots/", robot_id))),
+              IsOk());
+  v1::AppendReadingsRequest batch;
+  batch.set_session(absl::StrCat("sessions/", session_id));
+  *batch.mutable_readings() = SimulatedSession(poses, 1).readings();
+  services::AppendState state;
+  ASSERT_THAT(services::AppendReadings(call(), state, batch), IsOk());
+  CloseSession(session_id, poses);
+}
+
 void HandlerTest::AddSealedSession(const std::string& session_id, const std::string& robot_id,
                                    int readings) {
   AddSession(session_id, robot_id, readings);
+  CloseSession(session_id, readings);
+}
+
+void HandlerTest::CloseSession(const std::string& session_id, int readings) {
   v1::SealSessionRequest request;
   request.set_name(absl::StrCat("sessions/", session_id));
   request.set_reading_count(readings);
@@ -62,7 +84,7 @@ v1::Calibration HandlerTest::AddCalibration(const std::string& robot_id,
   request.add_sessions(absl::StrCat("sessions/", session_id));
   const auto job = services::CreateCalibrationJob(call(), request);
   EXPECT_THAT(job, IsOk());
-  auto calibration = Parse<v1::Calibration>(kCalibration);
+  v1::Calibration calibration = ExampleCalibration();
   calibration.set_nominal_revision(job->nominal_revision());
   *calibration.mutable_sessions() = job->sessions();
   const auto stored = store_->Write([&](store::Transaction& transaction) {

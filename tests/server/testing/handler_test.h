@@ -28,11 +28,16 @@ class HandlerTest : public ::testing::Test {
   void AddSession(const std::string& session_id, const std::string& robot_id, int readings);
   void AddSealedSession(const std::string& session_id, const std::string& robot_id,
                         int readings = 3);
-  // A calibration of `robot_id` from a sealed session, written as the engine would.
+  // Readings that a slightly wrong six-axis robot would give.
+  void AddSimulatedSession(const std::string& session_id, const std::string& robot_id, int poses);
+  // A real calibration over kCalibrationPoses rows, stored as that of `robot_id` from a sealed
+  // session, as the engine would.
   v1::Calibration AddCalibration(const std::string& robot_id, const std::string& session_id,
                                  const std::string& job_id);
 
  private:
+  void CloseSession(const std::string& session_id, int readings);
+
   std::unique_ptr<store::Store> store_;
   std::unique_ptr<jobs::JobEngine> engine_;  // not started: jobs stay PENDING
   std::unique_ptr<services::CallContext> call_;
