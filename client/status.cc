@@ -63,7 +63,9 @@ absl::Status FromGrpcStatus(const grpc::Status& status, const std::string& addre
   if (status.ok()) return absl::OkStatus();
   const auto code = static_cast<absl::StatusCode>(status.error_code());
   const Details details = ReadDetails(status);
-  if (code == absl::StatusCode::kUnavailable && !details.from_truepose) {
+  // A server that goes away resets its calls, which gRPC calls cancelled; what we cancel ourselves never gets here.
+  const bool cut = code == absl::StatusCode::kUnavailable || code == absl::StatusCode::kCancelled;
+  if (cut && !details.from_truepose) {
     return absl::UnavailableError(
         absl::StrCat("no Truepose server answers at ", address, " (", status.error_message(), ")"));
   }

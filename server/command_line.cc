@@ -35,6 +35,8 @@ std::optional<int> ParseCommandLine(int argc, const char* const* argv, CommandLi
   app.set_version_flag("--version", "trueposed " TRUEPOSE_VERSION);
   app.footer(kFooter);
   double drain_seconds = absl::ToDoubleSeconds(out->server.drain);
+  // A script can add an option behind those that it was given.
+  app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   AddOptions(app, drain_seconds, out);
   try {
     app.parse(argc, argv);

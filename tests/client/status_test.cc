@@ -63,6 +63,13 @@ TEST(StatusTest, AnAbsentServerIsNamedByItsAddress) {
   EXPECT_EQ(OverTheWire(absl::UnavailableError("too busy")).message(), "too busy");
 }
 
+// Would catch an upload that gives up because a server that stops resets its calls.
+TEST(StatusTest, ACallThatWasResetIsUnavailable) {
+  const grpc::Status reset(grpc::StatusCode::CANCELLED, "CANCELLED");
+  EXPECT_TRUE(absl::IsUnavailable(FromGrpcStatus(reset, "x")));
+  EXPECT_TRUE(absl::IsCancelled(OverTheWire(absl::CancelledError("said by the server"))));
+}
+
 // Would catch a crash on what another server or a proxy sends.
 TEST(StatusTest, DetailsThatCannotBeReadAreLeftOut) {
   for (const std::string& details :
