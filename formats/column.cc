@@ -51,7 +51,7 @@ void Columns::Bind(const std::vector<KnownColumn>& known_columns, std::string_vi
     const Unit* unit = nullptr;
     if (IsNameOf(known, name, &unit)) return Place(known, {std::string(name), cell, unit});
   }
-  if (!HasFault(known_columns, name)) extra_.push_back({std::string(name), cell, nullptr});
+  if (!HasFault(known_columns, name, cell)) extra_.push_back({std::string(name), cell, nullptr});
 }
 
 void Columns::Place(const KnownColumn& known, Column column) {
@@ -63,13 +63,14 @@ void Columns::Place(const KnownColumn& known, Column column) {
   }
 }
 
-bool Columns::HasFault(const std::vector<KnownColumn>& known_columns, std::string_view name) {
+bool Columns::HasFault(const std::vector<KnownColumn>& known_columns, std::string_view name,
+                       int cell) {
   for (const KnownColumn& known : known_columns) {
     if (!IsSlipOf(known, name)) continue;
     AddFault(name, StrCat("the header ", Quoted(name)),
              AnyOf(NamesWithUnits(known.stem, known.dimension)));
     Column& place = GroupOf(known).columns[known.index];
-    if (!IsThere(place)) place = {std::string(name), Column::kUnreadable, nullptr};
+    if (!IsThere(place)) place = {std::string(name), cell, nullptr, false};
     return true;
   }
   if (!LooksLikeJoint(name)) return false;
@@ -85,7 +86,7 @@ void Columns::CheckComplete(const std::vector<KnownColumn>& known_columns) {
     ColumnGroup& group = GroupOf(known);
     const auto beside = std::find_if(group.columns.begin(), group.columns.end(), IsThere);
     const Column& column = group.columns[known.index];
-    if (column.cell >= 0 || beside == group.columns.end()) continue;
+    if ((IsThere(column) && column.readable) || beside == group.columns.end()) continue;
     group.complete = false;
     if (IsThere(column)) continue;
     AddFault(NameBeside(known, *beside), "no such column", StrCat("one beside ", beside->name));

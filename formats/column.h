@@ -17,11 +17,11 @@ namespace truepose::formats {
 
 struct Column {
   static constexpr int kMissing = -1;
-  static constexpr int kUnreadable = -2;  // it is there under a faulty name
 
   std::string name;            // as in the file
   int cell = kMissing;         // index in a row
   const Unit* unit = nullptr;  // of a number
+  bool readable = true;        // false: it is there under a faulty name, nobody knows its unit
 };
 
 struct ColumnGroup {
@@ -43,7 +43,7 @@ class Columns {
  private:
   void Bind(const std::vector<KnownColumn>& known, std::string_view name, int cell);
   void Place(const KnownColumn& known, Column column);
-  bool HasFault(const std::vector<KnownColumn>& known, std::string_view name);
+  bool HasFault(const std::vector<KnownColumn>& known, std::string_view name, int cell);
   void CheckComplete(const std::vector<KnownColumn>& known);
   ColumnGroup& GroupOf(const KnownColumn& known);
   void AddFault(std::string_view column, std::string found, std::string expected);

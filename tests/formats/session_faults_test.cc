@@ -120,10 +120,11 @@ TEST(SessionFaultsTest, NamesATimeThatIsNoInstant) {
 // Catches: reading that stops at the first kind of fault: header, ragged rows and cells come
 // together.
 TEST(SessionFaultsTest, GathersAllFaultsOfAFile) {
-  EXPECT_THAT(FaultsIn("q1_rad,q2_rad,x,y_mm,z_mm\n0,0,1,2\nabc,0,1,2,3\n0,0,1,2,zz\n"),
+  EXPECT_THAT(FaultsIn("q1_rad,q2_rad,x,y_mm,z_mm\n0,0,1,2\nabc,0,1,2,3\n0,0,nan,2,zz\n"),
               ElementsAre("s.csv:2: found 4 cells, expected 5 as in the header",
                           "s.csv:1: x: found the header 'x', expected x_mm or x_m",
                           "s.csv:3: q1_rad: found 'abc', expected a number",
+                          "s.csv:4: x: found 'nan', expected a number",
                           "s.csv:4: z_mm: found 'zz', expected a number"));
 }
 
