@@ -60,6 +60,7 @@ struct SimulationOptions {
 struct Simulation {
   v1::SessionInput session;
   std::vector<v1::InternalParameter> truth;  // the internal errors that were drawn, all candidates
+  std::string convention;                    // what gives their names a meaning, as in a CalibrationReport
   v1::Pose X_MB, X_FT;
 };
 

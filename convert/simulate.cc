@@ -60,6 +60,7 @@ absl::StatusOr<Simulation> RunSimulation(const v1::Nominal& nominal, const Simul
   for (size_t i = 0; i < session.readings.size(); ++i) {
     *simulation.session.add_readings() = ReadingOf(session.readings[i], static_cast<int>(i), options);
   }
+  simulation.convention = model.convention;
   for (int i = 0; i < model.parameters.size(); ++i) {
     simulation.truth.emplace_back();
     simulation.truth.back().set_name(model.parameters[i].name);

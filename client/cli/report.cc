@@ -5,6 +5,8 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_replace.h"
+#include "absl/strings/string_view.h"
+#include "absl/strings/strip.h"
 #include "absl/time/time.h"
 #include "client/cli/histogram.h"
 #include "client/cli/table.h"
@@ -96,8 +98,25 @@ std::string HeadText(const v1::CalibrationReport& report) {
                    report.joints_used(), " joints, split ",
                    report.split().empty() ? "none (all rows calibrate)" : report.split(), "\n");
   absl::StrAppend(&text, SummaryLine(report), "\n", NoiseLine(report.summary()), "\n");
-  if (!report.summary().message().empty()) absl::StrAppend(&text, report.summary().message(), "\n");
+  if (report.summary().termination() != "converged" && !report.summary().message().empty()) {
+    absl::StrAppend(&text, report.summary().message(), "\n");
+  }
   return text;
+}
+
+void AddParameter(const v1::ParameterValue& value, Table* table) {
+  table->Add({value.name(), GroupName(value.group()), Fixed(value.nominal(), kDigits),
+              Fixed(value.identified(), kDigits),
+              Fixed(value.identified() - value.nominal(), kDigits), Fixed(value.sd(), kDigits),
+              value.unit()});
+}
+
+// "+1 dq2" of the relation "dbeta2 = +1 dq2"; without a relation the whole reason.
+std::string ActsAs(const v1::Redundancy& redundancy) {
+  absl::string_view text =
+      redundancy.relation().empty() ? redundancy.reason() : redundancy.relation();
+  absl::ConsumePrefix(&text, absl::StrCat(redundancy.dropped(), " = "));
+  return std::string(text);
 }
 
 bool HasControl(const v1::Calibration& calibration) {
@@ -135,21 +154,21 @@ std::string ParametersTable(const v1::ParameterReport& parameters) {
                {"change"},
                {"sd"},
                {"unit", Align::kLeft}});
-  for (const v1::ParameterValue& value : parameters.values()) {
-    table.Add({value.name(), GroupName(value.group()), Fixed(value.nominal(), kDigits),
-               Fixed(value.identified(), kDigits),
-               Fixed(value.identified() - value.nominal(), kDigits), Fixed(value.sd(), kDigits),
-               value.unit()});
+  // The robot's own parameters first; the report has them in the order of the covariance.
+  for (const v1::ParameterGroup group :
+       {v1::INTERNAL, v1::TOOL, v1::BASE, v1::PARAMETER_GROUP_UNSPECIFIED}) {
+    for (const v1::ParameterValue& value : parameters.values()) {
+      if (value.group() == group) AddParameter(value, &table);
+    }
   }
   return table.empty() ? "" : table.Text(kIndent);
 }
 
 std::string RedundanciesText(const v1::CalibrationReport& report) {
-  Table table({{"parameter", Align::kLeft}, {"because", Align::kLeft}, {"", Align::kLeft}});
+  Table table({{"parameter", Align::kLeft}, {"acts as", Align::kLeft}, {"", Align::kLeft}});
   for (const v1::Redundancy& redundancy : report.redundancies()) {
-    table.Add({redundancy.dropped(), redundancy.structural() ? "of the model" : "of these readings",
-               absl::StrCat(redundancy.relation(), redundancy.relation().empty() ? "" : ": ",
-                            redundancy.reason())});
+    table.Add({redundancy.dropped(), ActsAs(redundancy),
+               redundancy.structural() ? "at any poses" : "at these poses"});
   }
   return table.empty() ? "" : table.Text(kIndent);
 }
@@ -199,13 +218,14 @@ std::string VerdictText(const v1::CalibrationReport& report, const Console& cons
 }
 
 std::string CalibrationText(const v1::Calibration& calibration, const Console& console) {
+  // What matters most comes last, where a terminal shows it.
   const v1::CalibrationReport& report = calibration.report();
   std::string text = HeadText(report);
-  AppendSection("Residuals", SetsTable(report.sets()), &text);
   AppendSection("Parameters", ParametersTable(report.parameters()), &text);
-  AppendSection("Base in the instrument's frame, tool in the flange's frame", FramesTable(report),
-                &text);
+  AppendSection("Tool in the frame of the flange, base in that of the instrument",
+                FramesTable(report), &text);
   AppendSection("Parameters that stay at nominal", RedundanciesText(report), &text);
+  AppendSection("Residuals", SetsTable(report.sets()), &text);
   if (!calibration.residuals().empty()) {
     absl::StrAppend(&text, "\n", ResidualHistogram(calibration, console.utf8));
   }

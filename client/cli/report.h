@@ -17,7 +17,7 @@ std::string SetTable(const std::string& title, const v1::SetReport& set);
 // Nominal, identified, change and standard deviation of every identified parameter.
 std::string ParametersTable(const v1::ParameterReport& parameters);
 
-// "Stays at nominal: dbeta2 = +1 dq2 (reason)", one line a dropped parameter. "" without any.
+// What each dropped parameter acts as ("+1 dq2"), and whether at any poses. "" without any.
 std::string RedundanciesText(const v1::CalibrationReport& report);
 
 // Positions and orientations of base and tool, with the rows on which each was fitted.

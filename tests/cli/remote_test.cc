@@ -130,6 +130,8 @@ TEST_F(RemoteTest, ListsAndShowsWhatIsThere) {
   EXPECT_THAT(Remote({"session", "show", kUuid}).out, HasSubstr("readings 40, sealed"));
   EXPECT_THAT(Remote({"job", "list"}).out, HasSubstr("succeeded"));
   EXPECT_THAT(Remote({"calibration", "list"}).out, HasSubstr("ur10#1"));
+  EXPECT_EQ(Remote({"calibration", "list"}).out,
+            Remote({"calibration", "list", "--robot", "ur10"}).out);
   EXPECT_THAT(Remote({"calibration", "show", "ur10#1"}).out, HasSubstr("Verdict: "));
   const std::string job = At(jobs, "jobs.0.name");
   EXPECT_THAT(Remote({"job", "watch", job}).out, HasSubstr("succeeded, calibration ur10#1"));
@@ -149,11 +151,35 @@ TEST_F(RemoteTest, ShownCalibrationWorksLocally) {
       {"compensate", targets, "--local", "--robot", robot_, "--calibration", file, "--json"});
   EXPECT_EQ(remote.code, 0) << remote.err;
   EXPECT_EQ(remote.out, local.out);
-  const Ran evaluated = Remote({"evaluate", "--calibration", "ur10#1", "--session", kUuid});
+  const std::string check = folder_.Path("check.csv");
+  ASSERT_EQ(RunCli({"simulate", robot_, "--poses", "20", "--seed", "9", "--output", check}).code,
+            0);
+  ASSERT_EQ(
+      Remote({"session", "import", check, "--robot", "ur10", "--session-id", kOtherUuid}).code, 0);
+  const Ran evaluated = Remote({"evaluate", "--calibration", "ur10#1", "--session", kOtherUuid});
   EXPECT_EQ(evaluated.code, 0) << evaluated.err;
   EXPECT_EQ(evaluated.out, RunCli({"evaluate", "--local", "--robot", robot_, "--calibration", file,
-                                   "--session", session_})
+                                   "--session", check})
                                .out);
+}
+
+// Would catch figures of the very rows that calibrated being shown as a check, by either way.
+TEST_F(RemoteTest, EvaluatingTheOwnSessionWarns) {
+  AddRobot();
+  Import();
+  Calibrate();
+  const std::string warning = "Warning: this session had a part in the calibration";
+  EXPECT_THAT(Remote({"evaluate", "--calibration", "ur10#1", "--session", kUuid}).out,
+              HasSubstr(warning));
+  const std::string file = folder_.Path("c.json");
+  ASSERT_EQ(
+      RunCli({"calibrate", "--local", "--robot", robot_, "--session", session_, "--output", file})
+          .code,
+      0);
+  EXPECT_THAT(RunCli({"evaluate", "--local", "--robot", robot_, "--calibration", file, "--session",
+                      session_})
+                  .out,
+              HasSubstr(warning));
 }
 
 // Would catch a dead end at a name that is not there.

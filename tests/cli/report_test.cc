@@ -72,25 +72,25 @@ constexpr char kText[] =
 converged after 7 iterations; 2 parameters identified from 12 residuals, condition 41.2
 unexplained per axis: 0.284 mm, 0.034 deg; weighted residual variance 0.99
 
+Parameters
+  name    group      nominal  identified   change      sd  unit
+  dq2     internal    0.0000     -0.0125  -0.0125  0.0011  deg
+  base_x  base      100.0000    100.5000   0.5000  0.0200  mm
+
+Tool in the frame of the flange, base in that of the instrument
+  frame  name     x mm   y mm   z mm        qx        qy        qz        qw  fitted on
+  base         100.500  0.000  0.000  0.000000  0.000000  0.000000  1.000000  calibration rows
+
+Parameters that stay at nominal
+  parameter  acts as
+  dbeta2     +1 dq2   at any poses
+
 Residuals
   set          rows          mm: mean     sd    rms    max  deg: mean     sd    rms    max
   calibration     2  before     1.000  0.250  1.031  1.500      0.070  0.010  0.071  0.100
                      after      0.400  0.200  0.447  0.900      0.050  0.010  0.051  0.090
   control         1  before     2.000  0.000  2.000  2.000
                      after      1.000  0.000  1.000  1.000
-
-Parameters
-  name    group      nominal  identified   change      sd  unit
-  dq2     internal    0.0000     -0.0125  -0.0125  0.0011  deg
-  base_x  base      100.0000    100.5000   0.5000  0.0200  mm
-
-Base in the instrument's frame, tool in the flange's frame
-  frame  name     x mm   y mm   z mm        qx        qy        qz        qw  fitted on
-  base         100.500  0.000  0.000  0.000000  0.000000  0.000000  1.000000  calibration rows
-
-Parameters that stay at nominal
-  parameter  because
-  dbeta2     of the model  dbeta2 = +1 dq2: parallel axes
 
 Position residuals of the control rows in mm
   from mm  before                            after

@@ -44,17 +44,36 @@ std::string CalibrationsTable(const v1::ListCalibrationsResponse& list) {
   return table.Text();
 }
 
+absl::Status AppendCalibrationsOf(const client::Client& client, const std::string& robot,
+                                  v1::ListCalibrationsResponse* all) {
+  v1::ListCalibrationsRequest first;
+  first.set_robot(robot);
+  return client::ForEachPage(
+      first, [&](const auto& request) { return client.ListCalibrations(request); },
+      [&](const v1::ListCalibrationsResponse& page) {
+        all->MergeFrom(page);
+        return absl::OkStatus();
+      });
+}
+
+// The service lists calibrations by robot.
+absl::Status AppendAllCalibrations(const client::Client& client,
+                                   v1::ListCalibrationsResponse* all) {
+  return client::ForEachPage(
+      v1::ListRobotsRequest(), [&](const auto& request) { return client.ListRobots(request); },
+      [&](const v1::ListRobotsResponse& page) {
+        for (const v1::Robot& robot : page.robots()) {
+          TRUEPOSE_RETURN_IF_ERROR(AppendCalibrationsOf(client, robot.name(), all));
+        }
+        return absl::OkStatus();
+      });
+}
+
 absl::Status List(const Invocation& invocation, const std::string& robot) {
   return WithServer(invocation, kRobotHint, [&](const client::Client& client) -> absl::Status {
-    v1::ListCalibrationsRequest first;
-    first.set_robot(RobotName(robot));
     v1::ListCalibrationsResponse all;
-    TRUEPOSE_RETURN_IF_ERROR(client::ForEachPage(
-        first, [&](const auto& request) { return client.ListCalibrations(request); },
-        [&](const v1::ListCalibrationsResponse& page) {
-          all.MergeFrom(page);
-          return absl::OkStatus();
-        }));
+    TRUEPOSE_RETURN_IF_ERROR(robot.empty() ? AppendAllCalibrations(client, &all)
+                                           : AppendCalibrationsOf(client, RobotName(robot), &all));
     all.clear_next_page_token();
     return Reply(invocation, all, [&] { return CalibrationsTable(all); });
   });

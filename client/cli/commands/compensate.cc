@@ -34,11 +34,12 @@ bool AnyHasJoints(const v1::CompensateResponse& response) {
   return false;
 }
 
-bool AnyHasPose(const v1::CompensateResponse& response) {
-  for (const v1::CompensatedTarget& target : response.targets()) {
+// A pose is shown to those who asked with poses, and for a measuring robot, whose answer it is.
+bool ShowsPoses(const v1::CompensateRequest& request, const v1::CompensateResponse& response) {
+  for (const v1::CompensationTarget& target : request.targets()) {
     if (target.has_pose()) return true;
   }
-  return false;
+  return !AnyHasJoints(response);
 }
 
 std::vector<Column> JointColumns(const v1::Nominal& nominal) {
@@ -68,8 +69,9 @@ void AddPose(const v1::CompensatedTarget& target, std::vector<std::string>* cell
   }
 }
 
-std::string TargetsTable(const v1::Nominal& nominal, const v1::CompensateResponse& response) {
-  const bool joints = AnyHasJoints(response), poses = AnyHasPose(response);
+std::string TargetsTable(const v1::Nominal& nominal, const v1::CompensateRequest& request,
+                         const v1::CompensateResponse& response) {
+  const bool joints = AnyHasJoints(response), poses = ShowsPoses(request, response);
   std::vector<Column> columns = {{"target"}};
   if (joints) {
     for (Column& column : JointColumns(nominal)) columns.push_back(std::move(column));
@@ -105,20 +107,20 @@ absl::Status FaultsOfTargets(const Options& options, const v1::CompensateRespons
 }
 
 std::string Text(const Options& options, const v1::Nominal& nominal,
-                 const v1::CompensateResponse& response) {
-  if (options.output.empty()) return TargetsTable(nominal, response);
+                 const v1::CompensateRequest& request, const v1::CompensateResponse& response) {
+  if (options.output.empty()) return TargetsTable(nominal, request, response);
   return absl::StrCat(Count(response.targets_size(), "target"), " corrected, in ", options.output,
                       "\n");
 }
 
 absl::Status Deliver(const Invocation& invocation, const Options& options,
-                     const v1::Nominal& nominal, const v1::CompensateResponse& response,
-                     std::optional<OutputFile> output) {
+                     const v1::Nominal& nominal, const v1::CompensateRequest& request,
+                     const v1::CompensateResponse& response, std::optional<OutputFile> output) {
   TRUEPOSE_RETURN_IF_ERROR(FaultsOfTargets(options, response));
   if (output.has_value()) {
     TRUEPOSE_RETURN_IF_ERROR(output->Commit(formats::WriteCompensatedTargets(nominal, response)));
   }
-  return Reply(invocation, response, [&] { return Text(options, nominal, response); });
+  return Reply(invocation, response, [&] { return Text(options, nominal, request, response); });
 }
 
 absl::StatusOr<v1::CompensateRequest> LoadRequest(const Options& options,
@@ -149,7 +151,7 @@ absl::Status CompensateLocally(const Invocation& invocation, const Options& opti
   TRUEPOSE_ASSIGN_OR_RETURN(std::optional<OutputFile> output, OpenOutput(options.output));
   TRUEPOSE_ASSIGN_OR_RETURN(const v1::CompensateResponse response,
                             convert::RunCompensation(robot.nominal, calibration, request));
-  return Deliver(invocation, options, robot.nominal, response, std::move(output));
+  return Deliver(invocation, options, robot.nominal, request, response, std::move(output));
 }
 
 absl::Status CompensateOnServer(const Invocation& invocation, const Options& options) {
@@ -165,7 +167,7 @@ absl::Status CompensateOnServer(const Invocation& invocation, const Options& opt
         request.set_calibration(name);
         TRUEPOSE_ASSIGN_OR_RETURN(const v1::CompensateResponse response,
                                   client.Compensate(request));
-        return Deliver(invocation, options, robot.nominal, response, std::move(output));
+        return Deliver(invocation, options, robot.nominal, request, response, std::move(output));
       });
 }
 

@@ -1,4 +1,5 @@
 // truepose evaluate: a calibration applied to a session that had no part in it.
+#include <algorithm>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -47,6 +48,15 @@ absl::Status Deliver(const Invocation& invocation, const v1::Evaluation& evaluat
                [&] { return EvaluationText(evaluation, invocation.console.utf8); });
 }
 
+// As a server does; here a session is known by its file's name only.
+void WarnOfOwnSession(const v1::Calibration& calibration, const std::string& session,
+                      v1::Evaluation* evaluation) {
+  const auto& own = calibration.sessions();
+  if (std::find(own.begin(), own.end(), session) == own.end()) return;
+  evaluation->add_warnings(
+      "this session had a part in the calibration: the figures are no independent check");
+}
+
 absl::Status EvaluateLocally(const Invocation& invocation, const Options& options,
                              v1::Observe observe) {
   if (options.robot.empty()) return UsageError("--local needs --robot FILE");
@@ -57,8 +67,9 @@ absl::Status EvaluateLocally(const Invocation& invocation, const Options& option
       const std::vector<v1::SessionInput> sessions,
       LoadSessions({options.session}, robot.nominal, options.euler, invocation.console));
   TRUEPOSE_ASSIGN_OR_RETURN(
-      const v1::Evaluation evaluation,
+      v1::Evaluation evaluation,
       convert::RunEvaluation(robot.nominal, calibration, sessions[0], observe));
+  WarnOfOwnSession(calibration, options.session, &evaluation);
   return Deliver(invocation, evaluation);
 }
 

@@ -39,9 +39,7 @@ absl::StatusOr<v1::Robot> CreateRobot(const client::Client& client, const std::s
   v1::CreateRobotRequest request;
   request.set_robot_id(id);
   *request.mutable_nominal() = nominal;
-  absl::StatusOr<v1::Robot> robot = client.CreateRobot(request);
-  if (robot.ok()) return robot;
-  return WithHint(robot.status(), absl::StatusCode::kAlreadyExists, kOtherContentHint);
+  return client.CreateRobot(request);
 }
 
 absl::StatusOr<v1::Robot> AddRevision(const client::Client& client, const std::string& id,
@@ -67,7 +65,10 @@ absl::Status Add(const Invocation& invocation, const AddOptions& options) {
   return WithServer(invocation, kRobotHint, [&](const client::Client& client) -> absl::Status {
     const auto add = options.new_revision ? AddRevision : CreateRobot;
     const absl::StatusOr<v1::Robot> robot = add(client, id, file.nominal);
-    if (!robot.ok()) return formats::LocateFaults(robot.status(), file.lines);
+    if (!robot.ok()) {
+      return WithHint(formats::LocateFaults(robot.status(), file.lines),
+                      absl::StatusCode::kAlreadyExists, kOtherContentHint);
+    }
     return Reply(invocation, *robot, [&] { return AddedText(*robot); });
   });
 }

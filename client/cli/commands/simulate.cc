@@ -83,6 +83,7 @@ v1::Calibration Truth(const v1::Nominal& nominal, const convert::Simulation& sim
   truth.set_nominal_revision(LocalRevision(nominal));
   for (const v1::InternalParameter& parameter : simulation.truth)
     *truth.add_internal_parameters() = parameter;
+  truth.mutable_report()->set_convention(simulation.convention);
   *truth.mutable_report()->add_frames() = Frame(v1::BASE, simulation.X_MB);
   *truth.mutable_report()->add_frames() = Frame(v1::TOOL, simulation.X_FT);
   return truth;
