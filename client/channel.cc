@@ -7,8 +7,8 @@
 namespace truepose::client {
 namespace {
 
-// As the server's: a batch of 10000 readings of a robot with many columns stays below.
-constexpr int kMostMessageBytes = 16 << 20;
+// Of a reply: a calibration of a million readings carries as many residuals.
+constexpr int kMostMessageBytes = 256 << 20;
 // Above the 60000 bytes of error details that the client asks for (status.h).
 constexpr int kMostMetadataBytes = 80 << 10;
 // A cut network is noticed within half a minute; the server allows pings every 10 s.

@@ -1,8 +1,10 @@
 #include "server/calibration_runner.h"
 
+#include "absl/strings/str_cat.h"
 #include "absl/time/clock.h"
 #include "convert/run.h"
 #include "server/rpc/guard.h"
+#include "server/rpc/log.h"
 
 namespace truepose::server {
 namespace {
@@ -23,7 +25,11 @@ absl::StatusOr<v1::Calibration> Run(const v1::CalibrationInput& input,
     return convert::RunCalibration(
         input, {.on_progress = hooks.on_progress, .is_cancelled = hooks.is_cancelled});
   });
-  if (calibration.ok()) SetProvenance(absl::Now() - start, *calibration);
+  const absl::Duration elapsed = absl::Now() - start;
+  if (calibration.ok()) SetProvenance(elapsed, *calibration);
+  rpc::LogInfo(absl::StrCat("calibration of ", input.robot(), ": ",
+                            absl::StatusCodeToString(calibration.status().code()), " after ",
+                            absl::FormatDuration(absl::Trunc(elapsed, absl::Milliseconds(1)))));
   return calibration;
 }
 

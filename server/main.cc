@@ -12,7 +12,7 @@
 #include "server/calibration_runner.h"
 #include "server/command_line.h"
 #include "server/exit_codes.h"
-#include "server/log.h"
+#include "server/rpc/log.h"
 #include "server/server.h"
 
 namespace truepose::server {
@@ -55,22 +55,24 @@ int Fail(ExitCode code, const std::string& message) {
 
 int Run(const CommandLine& line) {
   const sigset_t signals = BlockStopSignals();
+  // One that a killed server left behind would send clients to where nobody is.
+  if (!line.ready_file.empty()) std::remove(line.ready_file.c_str());
   auto server = Server::Start(line.server, CalibrationRunner());
   if (!server.ok())
     return Fail(ToExitCode(server.status()), std::string(server.status().message()));
   if (!line.ready_file.empty() && !WriteReadyFile(line.ready_file, (*server)->address())) {
     return Fail(kExitUsage, "ready-file: '" + line.ready_file + "' can't be written");
   }
-  LogInfo("listening at " + (*server)->address() + ", database " + line.server.database);
+  rpc::LogInfo("listening at " + (*server)->address() + ", database " + line.server.database);
   int signal_number = 0;
   sigwait(&signals, &signal_number);
-  LogInfo("stopping: calls under way are finished, running jobs go back to the queue");
+  rpc::LogInfo("stopping: calls under way are finished, running jobs go back to the queue");
   // A second signal ends the process at once, as it would by default.
   pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
   (*server)->Stop();
   server->reset();
   if (!line.ready_file.empty()) std::remove(line.ready_file.c_str());
-  LogInfo("stopped");
+  rpc::LogInfo("stopped");
   return kExitOk;
 }
 
@@ -82,6 +84,6 @@ int main(int argc, char** argv) {
   CommandLine line;
   if (const auto exit_code = ParseCommandLine(argc, argv, &line); exit_code.has_value())
     return *exit_code;
-  SetLogLevel(line.log_level);
+  truepose::rpc::SetLogLevel(line.log_level);
   return Run(line);
 }

@@ -2,7 +2,6 @@
 // whole.
 #pragma once
 
-#include <cstddef>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -11,10 +10,10 @@
 
 #include "absl/status/statusor.h"
 #include "grpcpp/support/server_callback.h"
+#include "server/rpc/call.h"
 #include "server/rpc/drain.h"
 #include "server/rpc/executor.h"
 #include "server/rpc/guard.h"
-#include "server/rpc/status.h"
 
 namespace truepose::rpc {
 
@@ -27,8 +26,8 @@ class AckStream final : public grpc::ServerBidiReactor<Request, Response>, publi
   using Handler = std::function<absl::StatusOr<Response>(const Request&)>;
 
   // The stream keeps itself alive until gRPC is done with it. The executor outlives it.
-  static std::shared_ptr<AckStream> Make(Executor& executor, size_t error_bytes, Handler handler) {
-    std::shared_ptr<AckStream> stream(new AckStream(executor, error_bytes, std::move(handler)));
+  static std::shared_ptr<AckStream> Make(Executor& executor, Call call, Handler handler) {
+    std::shared_ptr<AckStream> stream(new AckStream(executor, std::move(call), std::move(handler)));
     stream->self_ = stream;
     stream->StartRead(&stream->request_);
     return stream;
@@ -54,7 +53,7 @@ class AckStream final : public grpc::ServerBidiReactor<Request, Response>, publi
         return;
       }
     }
-    this->Finish(ToGrpcStatus(*end_, error_bytes_));
+    this->Finish(Conclude(call_, *end_));
   }
 
   // A batch that is being handled is still acknowledged.
@@ -65,7 +64,7 @@ class AckStream final : public grpc::ServerBidiReactor<Request, Response>, publi
       end_ = status;
       if (state_ != State::kReading) return;
     }
-    this->Finish(ToGrpcStatus(*end_, error_bytes_));
+    this->Finish(Conclude(call_, *end_));
   }
 
   void OnDone() override { std::shared_ptr<AckStream>(std::move(self_)); }
@@ -73,8 +72,8 @@ class AckStream final : public grpc::ServerBidiReactor<Request, Response>, publi
  private:
   enum class State { kReading, kHandling, kWriting };
 
-  AckStream(Executor& executor, size_t error_bytes, Handler handler)
-      : executor_(executor), error_bytes_(error_bytes), handler_(std::move(handler)) {}
+  AckStream(Executor& executor, Call call, Handler handler)
+      : executor_(executor), call_(std::move(call)), handler_(std::move(handler)) {}
 
   void Handle() {
     Answer(Guarded([this] { return handler_(request_); }));
@@ -86,13 +85,13 @@ class AckStream final : public grpc::ServerBidiReactor<Request, Response>, publi
       state_ = reply.ok() ? State::kWriting : State::kReading;
       if (!reply.ok()) end_ = reply.status();
     }
-    if (!reply.ok()) return this->Finish(ToGrpcStatus(reply.status(), error_bytes_));
+    if (!reply.ok()) return this->Finish(Conclude(call_, reply.status()));
     response_ = *std::move(reply);
     this->StartWrite(&response_);
   }
 
   Executor& executor_;
-  const size_t error_bytes_;
+  const Call call_;
   const Handler handler_;
   Request request_;
   Response response_;

@@ -2,7 +2,6 @@
 // never queues them.
 #pragma once
 
-#include <cstddef>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -10,8 +9,8 @@
 
 #include "absl/status/status.h"
 #include "grpcpp/support/server_callback.h"
+#include "server/rpc/call.h"
 #include "server/rpc/drain.h"
-#include "server/rpc/status.h"
 
 namespace truepose::rpc {
 
@@ -22,8 +21,8 @@ template <typename Message>
 class LatestStream final : public grpc::ServerWriteReactor<Message>, public Endable {
  public:
   // The stream keeps itself alive until gRPC is done with it.
-  static std::shared_ptr<LatestStream> Make(size_t error_bytes) {
-    std::shared_ptr<LatestStream> stream(new LatestStream(error_bytes));
+  static std::shared_ptr<LatestStream> Make(Call call) {
+    std::shared_ptr<LatestStream> stream(new LatestStream(std::move(call)));
     stream->self_ = stream;
     return stream;
   }
@@ -81,7 +80,7 @@ class LatestStream final : public grpc::ServerWriteReactor<Message>, public Enda
  private:
   enum class Action { kNone, kWrite, kFinish };
 
-  explicit LatestStream(size_t error_bytes) : error_bytes_(error_bytes) {}
+  explicit LatestStream(Call call) : call_(std::move(call)) {}
 
   // The client is gone: nothing more goes out.
   void Abandon() {
@@ -105,10 +104,10 @@ class LatestStream final : public grpc::ServerWriteReactor<Message>, public Enda
   void Step() {
     const Action action = Next();
     if (action == Action::kWrite) this->StartWrite(&written_);
-    if (action == Action::kFinish) this->Finish(ToGrpcStatus(*end_, error_bytes_));
+    if (action == Action::kFinish) this->Finish(Conclude(call_, *end_));
   }
 
-  const size_t error_bytes_;
+  const Call call_;
   std::mutex mutex_;
   std::optional<Message> waiting_;
   Message written_;  // gRPC reads it while writing_

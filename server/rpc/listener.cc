@@ -24,7 +24,8 @@ void EnableHealthAndReflection() {
 
 void SetLimits(grpc::ServerBuilder& builder) {
   builder.SetMaxReceiveMessageSize(kMostMessageBytes);
-  builder.SetMaxSendMessageSize(kMostMessageBytes);
+  // A calibration of a million readings carries as many residuals.
+  builder.SetMaxSendMessageSize(-1);
   // Two servers on one port would share it silently.
   builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
   // A client that vanished is noticed within half a minute; clients may ask every 10 s.

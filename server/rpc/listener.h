@@ -13,6 +13,7 @@
 
 namespace truepose::rpc {
 
+// Of a request.
 inline constexpr int kMostMessageBytes = 16 << 20;
 
 class Listener {

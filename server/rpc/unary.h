@@ -5,10 +5,9 @@
 
 #include "absl/status/statusor.h"
 #include "grpcpp/server_context.h"
+#include "server/rpc/call.h"
 #include "server/rpc/executor.h"
 #include "server/rpc/guard.h"
-#include "server/rpc/metadata.h"
-#include "server/rpc/status.h"
 
 namespace truepose::rpc {
 
@@ -16,17 +15,17 @@ namespace truepose::rpc {
 // its result. Request and response of the call live until then. A call that its client has left
 // already is not run.
 template <typename Response, typename Handle>
-grpc::ServerUnaryReactor* RunUnary(grpc::CallbackServerContext* context, Executor& executor,
-                                   Response* response, Handle handle) {
+grpc::ServerUnaryReactor* RunUnary(const char* method, grpc::CallbackServerContext* context,
+                                   Executor& executor, Response* response, Handle handle) {
   grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
-  const size_t error_bytes = ErrorBytesOf(*context);
+  const Call call = MakeCall(method, *context);
   const bool accepted = executor.Submit([=] {
     if (context->IsCancelled()) return reactor->Finish(grpc::Status::CANCELLED);
     absl::StatusOr<Response> result = Guarded(handle);
     if (result.ok()) *response = *std::move(result);
-    reactor->Finish(ToGrpcStatus(result.status(), error_bytes));
+    reactor->Finish(Conclude(call, result.status()));
   });
-  if (!accepted) reactor->Finish(ToGrpcStatus(TooBusy(), error_bytes));
+  if (!accepted) reactor->Finish(Conclude(call, TooBusy()));
   return reactor;
 }
 

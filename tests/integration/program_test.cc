@@ -54,6 +54,15 @@ TEST_F(ProgramTest, TheReadyFileHasTheAddressThatWasTaken) {
   EXPECT_THAT(client::Client::Connect(address)->ListRobots({}), IsOk());
 }
 
+// Would catch a script that goes to the address of a server that was killed.
+TEST_F(ProgramTest, AReadyFileThatWasLeftBehindIsRemoved) {
+  const std::string left = folder_.File("left");
+  std::ofstream(left) << "127.0.0.1:1\n";
+  ServerProcess process(folder_, {"--database", folder_.File("none/t.db"), "--ready-file", left});
+  EXPECT_EQ(process.Wait(), server::kExitDatabase);
+  EXPECT_FALSE(std::filesystem::exists(left));
+}
+
 TEST_F(ProgramTest, HelpAndVersionAreNoFailure) {
   ServerProcess help(folder_, {"--help"});
   EXPECT_EQ(help.Wait(), server::kExitOk);

@@ -20,6 +20,6 @@ std::unique_ptr<grpc::Service> BindCalibrationService(const CallContext& call,
 #define TRUEPOSE_BIND(Method, Request, Response, executor)                                        \
   grpc::ServerUnaryReactor* Method(grpc::CallbackServerContext* context,                          \
                                    const v1::Request* request, v1::Response* response) override { \
-    return rpc::RunUnary(context, executor, response,                                             \
+    return rpc::RunUnary(#Method, context, executor, response,                                    \
                          [this, request] { return services::Method(call_, *request); });          \
   }

@@ -41,7 +41,7 @@ class CalibrationBinding final : public v1::CalibrationService::CallbackService 
   grpc::ServerWriteReactor<v1::CalibrationJob>* WatchCalibrationJob(
       grpc::CallbackServerContext* context,
       const v1::WatchCalibrationJobRequest* request) override {
-    const auto stream = JobStream::Make(rpc::ErrorBytesOf(*context));
+    const auto stream = JobStream::Make(rpc::MakeCall("WatchCalibrationJob", *context));
     drain_.Add(stream);
     // The request is copied: the stream may be finished, and the request gone, before this runs.
     const bool accepted = handlers_.Submit(

@@ -21,7 +21,7 @@ class SessionBinding final : public v1::SessionService::CallbackService {
       grpc::CallbackServerContext* context) override {
     using Stream = rpc::AckStream<v1::AppendReadingsRequest, v1::AppendReadingsResponse>;
     const auto stream = Stream::Make(
-        handlers_, rpc::ErrorBytesOf(*context),
+        handlers_, rpc::MakeCall("AppendReadings", *context),
         [this, state = std::make_shared<AppendState>()](const v1::AppendReadingsRequest& request) {
           return services::AppendReadings(call_, *state, request);
         });

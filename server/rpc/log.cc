@@ -1,9 +1,9 @@
-#include "server/log.h"
+#include "server/rpc/log.h"
 
 #include "spdlog/sinks/stdout_sinks.h"
 #include "spdlog/spdlog.h"
 
-namespace truepose::server {
+namespace truepose::rpc {
 namespace {
 
 spdlog::logger& Logger() {
@@ -22,6 +22,8 @@ void SetLogLevel(const std::string& level) {
   Logger().set_level(parsed == spdlog::level::off ? spdlog::level::info : parsed);
 }
 
+void LogDebug(const std::string& message) { Logger().debug(message); }
 void LogInfo(const std::string& message) { Logger().info(message); }
+void LogError(const std::string& message) { Logger().error(message); }
 
-}  // namespace truepose::server
+}  // namespace truepose::rpc

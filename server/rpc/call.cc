@@ -1,0 +1,37 @@
+#include "server/rpc/call.h"
+
+#include "absl/strings/str_cat.h"
+#include "absl/time/clock.h"
+#include "server/rpc/log.h"
+#include "server/rpc/status.h"
+
+namespace truepose::rpc {
+namespace {
+
+bool IsOurFault(const absl::Status& status) {
+  return absl::IsInternal(status) || absl::IsDataLoss(status) || absl::IsUnknown(status);
+}
+
+size_t ErrorBytesOf(const grpc::CallbackServerContext& context) {
+  const auto found = context.client_metadata().find(kErrorBytesKey);
+  if (found == context.client_metadata().end()) return kDefaultErrorBytes;
+  return ErrorBytes({found->second.data(), found->second.size()});
+}
+
+}  // namespace
+
+Call MakeCall(const char* method, const grpc::CallbackServerContext& context) {
+  return {method, ErrorBytesOf(context), absl::Now()};
+}
+
+grpc::Status Conclude(const Call& call, const absl::Status& status) {
+  if (IsOurFault(status)) {
+    LogError(absl::StrCat(call.method, ": ", status.ToString()));
+  } else {
+    LogDebug(absl::StrCat(call.method, " ", absl::StatusCodeToString(status.code()), " after ",
+                          absl::FormatDuration(absl::Now() - call.begin)));
+  }
+  return ToGrpcStatus(status, call.error_bytes);
+}
+
+}  // namespace truepose::rpc
