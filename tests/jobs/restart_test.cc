@@ -2,7 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <mutex>
 #include <thread>
+#include <utility>
 
 #include "server/jobs/engine.h"
 #include "server/jobs/transitions.h"
@@ -102,6 +105,37 @@ TEST_F(Restart, ACancellationWithoutItsWorkerIsSeenAtTheEnd) {
   EXPECT_TRUE(*End(claim)) << "the lease is still held";
   EXPECT_EQ(Stored(*store_, name).state(), v1::CANCELLED);
   EXPECT_EQ(CalibrationCount(*store_), 0);
+}
+
+// A clock that does something when it is asked for the first time: between a worker's claim and its
+// first look.
+class ClockWithHook : public store::Clock {
+ public:
+  explicit ClockWithHook(std::function<void()> hook) : hook_(std::move(hook)) {}
+  absl::Time Now() const override { return store::RealClock().Now(); }
+  absl::Duration Monotonic() const override {
+    std::call_once(once_, hook_);
+    return store::RealClock().Monotonic();
+  }
+
+ private:
+  const std::function<void()> hook_;
+  mutable std::once_flag once_;
+};
+
+// Catches a run of ten minutes although its cancellation was there before it began.
+TEST_F(Restart, ACancellationRightAfterTheClaimKeepsTheRunFromBeginning) {
+  const std::string name = store::AddJob(*store_, 1);
+  const ClockWithHook clock([&] {
+    const auto asked = store_->Write(
+        [&](store::Transaction& transaction) { return RequestCancel(transaction, name); });
+    EXPECT_EQ(asked->state(), v1::RUNNING);
+  });
+  runner_.EndWith(store::SampleCalibration());
+  JobEngine engine(*store_, runner_.AsRunner(), QuickOptions(), clock);
+  ASSERT_TRUE(engine.Start().ok());
+  EXPECT_EQ(Finish(engine, name).state(), v1::CANCELLED);
+  EXPECT_TRUE(runner_.Inputs().empty());
 }
 
 // Catches a worker that ends a job which was taken from it: while it waits, while another runs it,

@@ -4,6 +4,7 @@
 #include "server/store/calibrations.h"
 #include "server/store/names.h"
 #include "server/store/robots.h"
+#include "server/store/session_row.h"
 #include "server/store/sessions.h"
 #include "tests/store/conformance/conformance.h"
 
@@ -100,6 +101,19 @@ TEST_P(StoreConformance, DamagedInputIsDataLoss) {
   const auto job = Write(Create(1, SampleJob("ur10", {1})));
   ASSERT_TRUE(Write([](Transaction& transaction) {
                 return transaction.sql().Execute("DELETE FROM readings WHERE row_index = 3");
+              }).ok());
+  const auto input = Read([&](Snapshot& snapshot) { return LoadJobInput(snapshot, *job); });
+  EXPECT_EQ(input.status().code(), absl::StatusCode::kDataLoss);
+}
+
+// The same for a session that was sealed as something else meanwhile.
+TEST_P(StoreConformance, ASessionWithAnotherDigestIsDataLoss) {
+  AddRobotWithSession(*store_);
+  const auto job = Write(Create(1, SampleJob("ur10", {1})));
+  ASSERT_TRUE(Write([](Transaction& transaction) -> absl::Status {
+                v1::Session session = *GetSession(transaction, SessionName(Uuid(1)));
+                session.set_digest("another");
+                return UpdateSession(transaction, session);
               }).ok());
   const auto input = Read([&](Snapshot& snapshot) { return LoadJobInput(snapshot, *job); });
   EXPECT_EQ(input.status().code(), absl::StatusCode::kDataLoss);

@@ -164,6 +164,8 @@ TEST_P(StoreConformance, ASealedSessionNeverChanges) {
   const auto short_by_one = Write(Seal(1, 3, "digest"));
   EXPECT_EQ(short_by_one.status().code(), absl::StatusCode::kFailedPrecondition);
   EXPECT_EQ(FaultFields(short_by_one.status()), std::vector<std::string>{"reading_count"});
+  EXPECT_EQ(Write(Seal(1, 1, "digest")).status().code(), absl::StatusCode::kFailedPrecondition)
+      << "more than the client knows of";
   clock_.Advance(absl::Minutes(5));
   const auto sealed = Write(Seal(1, 2, "digest"));
   ASSERT_TRUE(sealed.ok()) << sealed.status();
