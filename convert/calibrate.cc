@@ -38,8 +38,10 @@ Hooks HooksFrom(const RunHooks& hooks) {
   return core;
 }
 
-// The tool that the target is near to: the one named, else the robot file's first as a mere start value.
-absl::StatusOr<std::optional<Pose>> NominalTool(const v1::Nominal& nominal, const std::string& name) {
+// The tool that the target is near to: the one named, else the robot file's first as a mere start
+// value.
+absl::StatusOr<std::optional<Pose>> NominalTool(const v1::Nominal& nominal,
+                                                const std::string& name) {
   if (name.empty()) {
     if (nominal.tools_size() == 0) return std::nullopt;
     return PoseFrom(nominal.tools(0).pose());
@@ -56,7 +58,8 @@ absl::StatusOr<std::vector<bool>> Roles(const Sessions& sessions, const Readings
   int rows = 0;
   for (const v1::SessionInput* session : sessions) rows += session->readings_size();
   if (!options.group_column().empty()) {
-    TRUEPOSE_ASSIGN_OR_RETURN(groups, ColumnValues(sessions, options.group_column(), "options.group_column"));
+    TRUEPOSE_ASSIGN_OR_RETURN(
+        groups, ColumnValues(sessions, options.group_column(), "options.group_column"));
   }
   if (split.rule == SplitRule::kColumn) {
     TRUEPOSE_ASSIGN_OR_RETURN(values, ColumnValues(sessions, split.column, "options.split"));
@@ -71,10 +74,13 @@ absl::Status CheckLimits(const v1::CalibrationInput& input, std::vector<std::str
   FaultList faults;
   for (int i = 0; i < input.sessions_size(); ++i) {
     const auto& readings = input.sessions(i).readings();
-    for (const std::string& warning : LimitWarnings(input.nominal(), {readings.begin(), readings.end()})) {
-      const std::string prefix = input.sessions_size() > 1 ? absl::StrCat("session ", i + 1, ": ") : "";
+    for (const std::string& warning :
+         LimitWarnings(input.nominal(), {readings.begin(), readings.end()})) {
+      const std::string prefix =
+          input.sessions_size() > 1 ? absl::StrCat("session ", i + 1, ": ") : "";
       warnings->push_back(prefix + warning);
-      faults.Add(absl::StrCat("sessions[", i, "].readings"), warning, "joints within their limits (strict_limits)");
+      faults.Add(absl::StrCat("sessions[", i, "].readings"), warning,
+                 "joints within their limits (strict_limits)");
     }
   }
   return input.options().strict_limits() ? faults.ToStatus() : absl::OkStatus();
@@ -83,8 +89,9 @@ absl::Status CheckLimits(const v1::CalibrationInput& input, std::vector<std::str
 void WarnOfFrames(v1::CalibrationReport* report) {
   for (const v1::FrameEstimate& frame : report->frames()) {
     if (frame.fitted_on() != "its own rows") continue;
-    report->add_warnings(absl::StrCat(frame.group() == v1::BASE ? "placement '" : "target '", frame.name(),
-                                      "' has no calibration row: its frame is fitted on its own control rows"));
+    report->add_warnings(
+        absl::StrCat(frame.group() == v1::BASE ? "placement '" : "target '", frame.name(),
+                     "' has no calibration row: its frame is fitted on its own control rows"));
   }
 }
 
@@ -92,14 +99,17 @@ v1::Calibration MessageOf(const v1::CalibrationInput& input, const CalibrationRe
                           const ReadingsProblem& readings, const std::optional<Pose>& X_FT) {
   v1::Calibration calibration;
   calibration.set_nominal_revision(input.nominal_revision());
-  for (const v1::SessionInput& session : input.sessions()) calibration.add_sessions(session.session().name());
+  for (const v1::SessionInput& session : input.sessions())
+    calibration.add_sessions(session.session().name());
   FillParameters(result, &calibration);
   *calibration.mutable_report() = ReportOf(result, readings, X_FT);
   *calibration.mutable_options() = input.options();
-  for (v1::RowResidual& residual : ResidualsOf(result.complete, readings.rows, readings.problem.calibrates)) {
+  for (v1::RowResidual& residual :
+       ResidualsOf(result.complete, readings.rows, readings.problem.calibrates)) {
     *calibration.add_residuals() = std::move(residual);
   }
-  calibration.set_digest(CalibrationDigest(result.model.convention, NominalDigest(input.nominal()), calibration));
+  calibration.set_digest(
+      CalibrationDigest(result.model.convention, NominalDigest(input.nominal()), calibration));
   return calibration;
 }
 
@@ -122,22 +132,25 @@ absl::Status CheckInput(const v1::CalibrationInput& input) {
 
 }  // namespace
 
-absl::StatusOr<v1::Calibration> RunCalibration(const v1::CalibrationInput& input, const RunHooks& hooks) {
+absl::StatusOr<v1::Calibration> RunCalibration(const v1::CalibrationInput& input,
+                                               const RunHooks& hooks) {
   TRUEPOSE_RETURN_IF_ERROR(CheckInput(input));
   TRUEPOSE_ASSIGN_OR_RETURN(const Robot robot, RobotFrom(input.nominal()));
   const Sessions sessions = SessionsOf(input);
-  TRUEPOSE_ASSIGN_OR_RETURN(ReadingsProblem readings,
-                            ReadingsFrom(input.nominal(), robot, sessions, input.options().observe()));
+  TRUEPOSE_ASSIGN_OR_RETURN(ReadingsProblem readings, ReadingsFrom(input.nominal(), robot, sessions,
+                                                                   input.options().observe()));
   std::vector<std::string> warnings;
   TRUEPOSE_RETURN_IF_ERROR(CheckLimits(input, &warnings));
   readings.problem.robot = &robot;
-  TRUEPOSE_ASSIGN_OR_RETURN(readings.problem.calibrates, Roles(sessions, readings, input.options()));
+  TRUEPOSE_ASSIGN_OR_RETURN(readings.problem.calibrates,
+                            Roles(sessions, readings, input.options()));
   TRUEPOSE_ASSIGN_OR_RETURN(readings.problem.X_FT_nominal,
                             NominalTool(input.nominal(), input.options().nominal_tool()));
   CalibrateOptions options;
   options.require_complete = input.options().require_complete();
   const Hooks core_hooks = HooksFrom(hooks);
-  TRUEPOSE_ASSIGN_OR_RETURN(const CalibrationResult result, Calibrate(readings.problem, options, core_hooks));
+  TRUEPOSE_ASSIGN_OR_RETURN(const CalibrationResult result,
+                            Calibrate(readings.problem, options, core_hooks));
   v1::Calibration calibration = MessageOf(input, result, readings, readings.problem.X_FT_nominal);
   FillReport(input, readings, warnings, calibration.mutable_report());
   return calibration;

@@ -6,16 +6,19 @@
 
 namespace truepose::convert {
 
-absl::StatusOr<CalibratedModel> CalibratedModelFrom(const Robot& robot, const v1::Calibration& calibration) {
+absl::StatusOr<CalibratedModel> CalibratedModelFrom(const Robot& robot,
+                                                    const v1::Calibration& calibration) {
   CalibratedModel result{ModifiedIncremental(robot, ModelExtent::kInternal), {}};
   const int count = result.model.parameters.size();
   result.lambda = Eigen::VectorXd::Zero(count);
   FaultList faults;
   if (calibration.report().convention() != result.model.convention) {
-    faults.Add("calibration.report.convention", absl::StrCat("'", calibration.report().convention(), "'"), result.model.convention);
+    faults.Add("calibration.report.convention",
+               absl::StrCat("'", calibration.report().convention(), "'"), result.model.convention);
   }
   if (calibration.internal_parameters_size() != count) {
-    faults.Add("calibration.internal_parameters", absl::StrCat(calibration.internal_parameters_size(), " parameters"),
+    faults.Add("calibration.internal_parameters",
+               absl::StrCat(calibration.internal_parameters_size(), " parameters"),
                absl::StrCat(count, ", those of this robot"));
   }
   for (int i = 0; i < calibration.internal_parameters_size(); ++i) {
@@ -25,7 +28,8 @@ absl::StatusOr<CalibratedModel> CalibratedModelFrom(const Robot& robot, const v1
     if (const auto index = result.model.parameters.Find(parameter.name())) {
       result.lambda(*index) = parameter.value();
     } else {
-      faults.Add(field + ".name", absl::StrCat("'", parameter.name(), "'"), "a parameter of this robot's model");
+      faults.Add(field + ".name", absl::StrCat("'", parameter.name(), "'"),
+                 "a parameter of this robot's model");
     }
   }
   if (!faults.empty()) return faults.ToStatus();

@@ -12,8 +12,10 @@ struct CalibratedModel {
   Eigen::VectorXd lambda;
 };
 
-// @returns kInvalidArgument with faults `calibration.internal_parameters[i]` for a convention, a name or a count that
+// @returns kInvalidArgument with faults `calibration.internal_parameters[i]` for a convention, a
+// name or a count that
 //   this robot's model does not have: the calibration is of another robot or model.
-absl::StatusOr<CalibratedModel> CalibratedModelFrom(const Robot& robot, const v1::Calibration& calibration);
+absl::StatusOr<CalibratedModel> CalibratedModelFrom(const Robot& robot,
+                                                    const v1::Calibration& calibration);
 
 }  // namespace truepose::convert

@@ -19,11 +19,14 @@ absl::Status CheckTargets(const v1::CompensateRequest& request, int joints) {
   for (int i = 0; i < request.targets_size(); ++i) {
     const v1::CompensationTarget& target = request.targets(i);
     const std::string field = absl::StrCat("targets[", i, "]");
-    if (!target.has_pose() && target.joints_size() == 0) faults.Add(field, "neither joints nor pose", "one of them");
+    if (!target.has_pose() && target.joints_size() == 0)
+      faults.Add(field, "neither joints nor pose", "one of them");
     if (target.joints_size() != 0 && target.joints_size() != joints) {
-      faults.Add(field + ".joints", absl::StrCat(target.joints_size(), " values"), absl::StrCat(joints));
+      faults.Add(field + ".joints", absl::StrCat(target.joints_size(), " values"),
+                 absl::StrCat(joints));
     }
-    for (int j = 0; j < target.joints_size(); ++j) CheckFinite(target.joints(j), absl::StrCat(field, ".joints[", j, "]"), &faults);
+    for (int j = 0; j < target.joints_size(); ++j)
+      CheckFinite(target.joints(j), absl::StrCat(field, ".joints[", j, "]"), &faults);
     if (target.has_pose()) CheckPose(target.pose(), field + ".pose", &faults);
   }
   return faults.ToStatus();
@@ -33,12 +36,16 @@ absl::Status CheckTargets(const v1::CompensateRequest& request, int joints) {
 class Compensator {
  public:
   Compensator(const Robot& robot, const CalibratedModel& calibrated, const Pose& X_FT)
-      : robot_(robot), model_(calibrated.model), lambda_(calibrated.lambda),
-        nominal_(Eigen::VectorXd::Zero(calibrated.lambda.size())), X_FT_(X_FT) {}
+      : robot_(robot),
+        model_(calibrated.model),
+        lambda_(calibrated.lambda),
+        nominal_(Eigen::VectorXd::Zero(calibrated.lambda.size())),
+        X_FT_(X_FT) {}
 
   v1::CompensatedTarget Run(const v1::CompensationTarget& target) const {
     v1::CompensatedTarget result;
-    const absl::Status status = target.has_pose() ? RunPose(target, &result) : RunJoints(target, &result);
+    const absl::Status status =
+        target.has_pose() ? RunPose(target, &result) : RunJoints(target, &result);
     if (!status.ok()) {
       result.Clear();
       result.set_fault(std::string(status.message()));
@@ -48,7 +55,8 @@ class Compensator {
   }
 
  private:
-  absl::Status RunJoints(const v1::CompensationTarget& target, v1::CompensatedTarget* result) const {
+  absl::Status RunJoints(const v1::CompensationTarget& target,
+                         v1::CompensatedTarget* result) const {
     const Eigen::VectorXd q = robot_.joint_map().ToChain(JointsOf(target));
     TRUEPOSE_RETURN_IF_ERROR(CheckLimits(JointsOf(target), "target"));
     return Solve(q, Forward(model_.chain, q, nominal_), result);
@@ -56,13 +64,16 @@ class Compensator {
 
   absl::Status RunPose(const v1::CompensationTarget& target, v1::CompensatedTarget* result) const {
     const Pose X_BF = PoseFrom(target.pose()) * Inverse(X_FT_);
-    const Eigen::VectorXd preferred = target.joints_size() > 0 ? JointsOf(target) : robot_.MiddleOfLimits();
-    TRUEPOSE_ASSIGN_OR_RETURN(const Eigen::VectorXd q, NominalInverse(robot_, model_, X_BF, preferred, {}));
+    const Eigen::VectorXd preferred =
+        target.joints_size() > 0 ? JointsOf(target) : robot_.MiddleOfLimits();
+    TRUEPOSE_ASSIGN_OR_RETURN(const Eigen::VectorXd q,
+                              NominalInverse(robot_, model_, X_BF, preferred, {}));
     return Solve(q, X_BF, result);
   }
 
   // @param q chain joints at which the nominal flange is at X_BF.
-  absl::Status Solve(const Eigen::VectorXd& q, const Pose& X_BF, v1::CompensatedTarget* result) const {
+  absl::Status Solve(const Eigen::VectorXd& q, const Pose& X_BF,
+                     v1::CompensatedTarget* result) const {
     TRUEPOSE_ASSIGN_OR_RETURN(const Compensated solved, SolvePose(model_, lambda_, X_BF, q, {}));
     const Eigen::VectorXd q_controller = robot_.joint_map().ToController(solved.q);
     TRUEPOSE_RETURN_IF_ERROR(CheckLimits(q_controller, "compensated"));
@@ -74,9 +85,11 @@ class Compensator {
     return absl::OkStatus();
   }
 
-  static void SetCorrection(const Pose& desired, const Pose& uncompensated, v1::CompensatedTarget* result) {
+  static void SetCorrection(const Pose& desired, const Pose& uncompensated,
+                            v1::CompensatedTarget* result) {
     result->set_position_correction_mm((desired.p - uncompensated.p).norm() * kMmPerM);
-    result->set_rotation_correction_deg(LogRotation<double>(desired.R * uncompensated.R.transpose()).norm() * kDegPerRad);
+    result->set_rotation_correction_deg(
+        LogRotation<double>(desired.R * uncompensated.R.transpose()).norm() * kDegPerRad);
   }
 
   absl::Status CheckLimits(const Eigen::VectorXd& q, const std::string& what) const {
@@ -85,9 +98,9 @@ class Compensator {
       if (q(i) >= joint.lower && q(i) <= joint.upper) continue;
       const bool angle = joint.type == JointType::kRevolute;
       const double scale = angle ? kDegPerRad : kMmPerM;
-      return absl::FailedPreconditionError(absl::StrCat(what, " joint ", joint.name, " at ", q(i) * scale,
-                                                        " is beyond its limits ", joint.lower * scale, " to ",
-                                                        joint.upper * scale, angle ? " deg" : " mm"));
+      return absl::FailedPreconditionError(
+          absl::StrCat(what, " joint ", joint.name, " at ", q(i) * scale, " is beyond its limits ",
+                       joint.lower * scale, " to ", joint.upper * scale, angle ? " deg" : " mm"));
     }
     return absl::OkStatus();
   }
@@ -110,15 +123,18 @@ absl::StatusOr<Pose> ToolOf(const v1::Nominal& nominal, const std::string& name)
 
 }  // namespace
 
-absl::StatusOr<v1::CompensateResponse> RunCompensation(const v1::Nominal& nominal, const v1::Calibration& calibration,
+absl::StatusOr<v1::CompensateResponse> RunCompensation(const v1::Nominal& nominal,
+                                                       const v1::Calibration& calibration,
                                                        const v1::CompensateRequest& request) {
   TRUEPOSE_ASSIGN_OR_RETURN(const Robot robot, RobotFrom(nominal));
-  TRUEPOSE_ASSIGN_OR_RETURN(const CalibratedModel calibrated, CalibratedModelFrom(robot, calibration));
+  TRUEPOSE_ASSIGN_OR_RETURN(const CalibratedModel calibrated,
+                            CalibratedModelFrom(robot, calibration));
   TRUEPOSE_RETURN_IF_ERROR(CheckTargets(request, robot.joint_count()));
   TRUEPOSE_ASSIGN_OR_RETURN(const Pose X_FT, ToolOf(nominal, request.tool()));
   const Compensator compensator(robot, calibrated, X_FT);
   v1::CompensateResponse response;
-  for (const v1::CompensationTarget& target : request.targets()) *response.add_targets() = compensator.Run(target);
+  for (const v1::CompensationTarget& target : request.targets())
+    *response.add_targets() = compensator.Run(target);
   return response;
 }
 

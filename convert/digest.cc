@@ -1,8 +1,8 @@
 #include "convert/digest.h"
 
-#include <algorithm>
-
 #include <openssl/evp.h>
+
+#include <algorithm>
 
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
@@ -15,7 +15,9 @@ namespace {
 // A line `name value`; texts are escaped, so that no text can pass for two lines.
 class Lines {
  public:
-  void Add(const std::string& name, double value) { absl::StrAppend(&text_, name, " ", absl::StrFormat("%a", value), "\n"); }
+  void Add(const std::string& name, double value) {
+    absl::StrAppend(&text_, name, " ", absl::StrFormat("%a", value), "\n");
+  }
   void Add(const std::string& name, const std::string& value) {
     absl::StrAppend(&text_, name, " ", absl::CEscape(value), "\n");
   }
@@ -75,7 +77,8 @@ void AddPose(const std::string& field, const v1::Pose& pose, Lines* lines) {
   lines->Add(field + ".qw", pose.qw());
 }
 
-void AddNumbers(const std::string& field, const google::protobuf::RepeatedField<double>& values, Lines* lines) {
+void AddNumbers(const std::string& field, const google::protobuf::RepeatedField<double>& values,
+                Lines* lines) {
   for (int i = 0; i < values.size(); ++i) lines->Add(absl::StrCat(field, "[", i, "]"), values[i]);
 }
 
@@ -118,7 +121,8 @@ std::string CalibrationDigest(const std::string& convention, const std::string& 
                               const v1::Calibration& calibration) {
   std::vector<std::string> values;
   for (const v1::InternalParameter& parameter : calibration.internal_parameters()) {
-    values.push_back(absl::StrCat(parameter.name(), " ", absl::StrFormat("%a", parameter.value()), "\n"));
+    values.push_back(
+        absl::StrCat(parameter.name(), " ", absl::StrFormat("%a", parameter.value()), "\n"));
   }
   std::sort(values.begin(), values.end());
   std::string text = absl::StrCat("convention ", convention, "\nnominal ", nominal_digest, "\n");
@@ -132,7 +136,8 @@ std::string NominalDigest(const v1::Nominal& nominal) {
   lines.Add("manufacturer", nominal.manufacturer());
   lines.Add("model", nominal.model());
   lines.Add("kind", v1::RobotKind_Name(nominal.kind()));
-  for (int i = 0; i < nominal.joints_size(); ++i) AddJoint(absl::StrCat("joint[", i, "]"), nominal.joints(i), &lines);
+  for (int i = 0; i < nominal.joints_size(); ++i)
+    AddJoint(absl::StrCat("joint[", i, "]"), nominal.joints(i), &lines);
   AddGeometry(nominal.geometry(), &lines);
   AddNumbers("joint_map.scale", nominal.joint_map().scale(), &lines);
   AddNumbers("joint_map.offset", nominal.joint_map().offset(), &lines);
@@ -149,7 +154,8 @@ std::string ReadingsDigest(const std::vector<v1::Reading>& readings) {
   return lines.Digest();
 }
 
-std::string JobInputDigest(const std::string& nominal_digest, const std::vector<std::string>& session_digests,
+std::string JobInputDigest(const std::string& nominal_digest,
+                           const std::vector<std::string>& session_digests,
                            const v1::CalibrationOptions& options) {
   Lines lines;
   lines.Add("nominal", nominal_digest);

@@ -18,7 +18,8 @@ v1::Evaluation MessageOf(const EvaluationResult& result, const ReadingsProblem& 
   const CalibrationProblem& problem = readings.problem;
   const std::vector<FittedOn> base(problem.placements.size(), FittedOn::kOwnRows);
   const std::vector<FittedOn> tool(problem.targets.size(), FittedOn::kOwnRows);
-  for (v1::FrameEstimate& frame : FramesOf(result.after, problem.placements, problem.targets, base, tool)) {
+  for (v1::FrameEstimate& frame :
+       FramesOf(result.after, problem.placements, problem.targets, base, tool)) {
     *evaluation.add_frames() = std::move(frame);
   }
   const std::vector<bool> control(problem.readings.size(), false);
@@ -31,19 +32,24 @@ v1::Evaluation MessageOf(const EvaluationResult& result, const ReadingsProblem& 
 
 }  // namespace
 
-absl::StatusOr<v1::Evaluation> RunEvaluation(const v1::Nominal& nominal, const v1::Calibration& calibration,
+absl::StatusOr<v1::Evaluation> RunEvaluation(const v1::Nominal& nominal,
+                                             const v1::Calibration& calibration,
                                              const v1::SessionInput& session, v1::Observe observe) {
   TRUEPOSE_ASSIGN_OR_RETURN(const Robot robot, RobotFrom(nominal));
-  TRUEPOSE_ASSIGN_OR_RETURN(const CalibratedModel calibrated, CalibratedModelFrom(robot, calibration));
-  TRUEPOSE_ASSIGN_OR_RETURN(ReadingsProblem readings, ReadingsFrom(nominal, robot, {&session}, observe));
+  TRUEPOSE_ASSIGN_OR_RETURN(const CalibratedModel calibrated,
+                            CalibratedModelFrom(robot, calibration));
+  TRUEPOSE_ASSIGN_OR_RETURN(ReadingsProblem readings,
+                            ReadingsFrom(nominal, robot, {&session}, observe));
   readings.problem.robot = &robot;
   if (nominal.tools_size() > 0) readings.problem.X_FT_nominal = PoseFrom(nominal.tools(0).pose());
-  TRUEPOSE_ASSIGN_OR_RETURN(const EvaluationResult result, Evaluate(readings.problem, calibrated.lambda, {}, {}));
+  TRUEPOSE_ASSIGN_OR_RETURN(const EvaluationResult result,
+                            Evaluate(readings.problem, calibrated.lambda, {}, {}));
   v1::Evaluation evaluation = MessageOf(result, readings);
   evaluation.set_calibration(calibration.name());
   evaluation.set_session(session.session().name());
   const auto& rows = session.readings();
-  for (const std::string& warning : LimitWarnings(nominal, {rows.begin(), rows.end()})) evaluation.add_warnings(warning);
+  for (const std::string& warning : LimitWarnings(nominal, {rows.begin(), rows.end()}))
+    evaluation.add_warnings(warning);
   return evaluation;
 }
 

@@ -60,7 +60,9 @@ v1::Pose ToProto(const Pose& X) {
   return pose;
 }
 
-Eigen::Vector3d VectorFrom(const v1::Vector3& vector) { return {vector.x(), vector.y(), vector.z()}; }
+Eigen::Vector3d VectorFrom(const v1::Vector3& vector) {
+  return {vector.x(), vector.y(), vector.z()};
+}
 
 v1::Vector3 ToProto(const Eigen::Vector3d& vector) {
   v1::Vector3 message;
@@ -70,7 +72,9 @@ v1::Vector3 ToProto(const Eigen::Vector3d& vector) {
   return message;
 }
 
-Eigen::Matrix3d RotationFrom(const v1::Quaternion& q) { return RotationFrom(q.x(), q.y(), q.z(), q.w()); }
+Eigen::Matrix3d RotationFrom(const v1::Quaternion& q) {
+  return RotationFrom(q.x(), q.y(), q.z(), q.w());
+}
 
 v1::Quaternion QuaternionToProto(const Eigen::Matrix3d& R) {
   const Eigen::Vector4d q = QuaternionOf<double>(R);

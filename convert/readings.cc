@@ -36,19 +36,25 @@ std::optional<ObservationKind> KindFor(const v1::Reading& reading, v1::Observe o
   if (!reading.has_position_m()) return std::nullopt;
   const bool axis = reading.has_axis() || reading.has_orientation();
   switch (observe) {
-    case v1::POSE: return reading.has_orientation() ? std::optional(ObservationKind::kPose) : std::nullopt;
-    case v1::POINT_AXIS: return axis ? std::optional(ObservationKind::kPointAxis) : std::nullopt;
-    case v1::POINT: return ObservationKind::kPoint;
-    default: break;
+    case v1::POSE:
+      return reading.has_orientation() ? std::optional(ObservationKind::kPose) : std::nullopt;
+    case v1::POINT_AXIS:
+      return axis ? std::optional(ObservationKind::kPointAxis) : std::nullopt;
+    case v1::POINT:
+      return ObservationKind::kPoint;
+    default:
+      break;
   }
   if (reading.has_orientation()) return ObservationKind::kPose;
   return reading.has_axis() ? ObservationKind::kPointAxis : ObservationKind::kPoint;
 }
 
 Reading ReadingFrom(const v1::Reading& message, const Robot& robot, ObservationKind kind) {
-  const auto& joints = message.joints_measured_size() > 0 ? message.joints_measured() : message.joints_commanded();
+  const auto& joints =
+      message.joints_measured_size() > 0 ? message.joints_measured() : message.joints_commanded();
   Reading reading;
-  reading.q = robot.joint_map().ToChain(Eigen::Map<const Eigen::VectorXd>(joints.data(), joints.size()));
+  reading.q =
+      robot.joint_map().ToChain(Eigen::Map<const Eigen::VectorXd>(joints.data(), joints.size()));
   reading.kind = kind;
   reading.X_MT.p = VectorFrom(message.position_m());
   if (message.has_orientation()) {
@@ -67,7 +73,8 @@ class Collector {
 
   ReadingsProblem Run() {
     for (size_t s = 0; s < sessions_.size(); ++s) {
-      for (const v1::Reading& reading : sessions_[s]->readings()) Take(static_cast<int>(s), reading);
+      for (const v1::Reading& reading : sessions_[s]->readings())
+        Take(static_cast<int>(s), reading);
       WarnOfUnused(static_cast<int>(s));
     }
     result_.problem.placements = placements_.labels();
@@ -87,9 +94,11 @@ class Collector {
     }
     Reading reading = ReadingFrom(message, robot_, *kind);
     reading.id = static_cast<int>(result_.rows.size());
-    reading.placement = placements_.IndexOf(absl::StrCat(s, "\n", message.placement()), Label(s, message.placement()));
+    reading.placement = placements_.IndexOf(absl::StrCat(s, "\n", message.placement()),
+                                            Label(s, message.placement()));
     const std::string& target = message.target();
-    reading.target = targets_.IndexOf(target.empty() ? absl::StrCat(s, "\n") : target, target.empty() ? Label(s, "") : target);
+    reading.target = targets_.IndexOf(target.empty() ? absl::StrCat(s, "\n") : target,
+                                      target.empty() ? Label(s, "") : target);
     (message.joints_measured_size() > 0 ? measured_ : commanded_) += 1;
     result_.problem.readings.push_back(std::move(reading));
     result_.rows.push_back({s, message.row()});
@@ -105,10 +114,12 @@ class Collector {
   void WarnOfUnused(int s) {
     if (unused_.empty()) return;
     const size_t shown = std::min<size_t>(unused_.size(), 20);
-    const std::string rows = absl::StrJoin(unused_.begin(), unused_.begin() + static_cast<long>(shown), ", ");
-    result_.warnings.push_back(absl::StrCat(Label(s, ""), sessions_.size() > 1 ? ": " : "", unused_.size(),
-                                            " rows are not used: joints or the observed quantity are missing (rows ",
-                                            rows, unused_.size() > shown ? ", ..." : "", ")"));
+    const std::string rows =
+        absl::StrJoin(unused_.begin(), unused_.begin() + static_cast<long>(shown), ", ");
+    result_.warnings.push_back(
+        absl::StrCat(Label(s, ""), sessions_.size() > 1 ? ": " : "", unused_.size(),
+                     " rows are not used: joints or the observed quantity are missing (rows ", rows,
+                     unused_.size() > shown ? ", ..." : "", ")"));
     unused_.clear();
   }
 
@@ -132,7 +143,8 @@ absl::Status CheckSessions(const v1::Nominal& nominal, const Sessions& sessions)
   if (sessions.empty()) faults.Add("sessions", "none", "at least one sealed session");
   for (size_t s = 0; s < sessions.size(); ++s) {
     const auto& readings = sessions[s]->readings();
-    faults.AddAll(ValidateReadings(nominal, {readings.begin(), readings.end()}, 0), absl::StrCat("sessions[", s, "]."));
+    faults.AddAll(ValidateReadings(nominal, {readings.begin(), readings.end()}, 0),
+                  absl::StrCat("sessions[", s, "]."));
   }
   return faults.ToStatus();
 }
@@ -145,21 +157,24 @@ const std::string* BuiltInColumn(const v1::Reading& reading, const std::string& 
   return nullptr;
 }
 
-absl::Status UnknownColumn(const v1::Session& session, const std::string& column, const std::string& field) {
+absl::Status UnknownColumn(const v1::Session& session, const std::string& column,
+                           const std::string& field) {
   std::vector<std::string> names = {"placement", "target", "group", "time"};
   names.insert(names.end(), session.extra_columns().begin(), session.extra_columns().end());
-  return FaultStatus(field, absl::StrCat("column '", column, "'"), absl::StrCat("one of ", absl::StrJoin(names, ", ")));
+  return FaultStatus(field, absl::StrCat("column '", column, "'"),
+                     absl::StrCat("one of ", absl::StrJoin(names, ", ")));
 }
 
 }  // namespace
 
-absl::StatusOr<ReadingsProblem> ReadingsFrom(const v1::Nominal& nominal, const Robot& robot, const Sessions& sessions,
-                                             v1::Observe observe) {
+absl::StatusOr<ReadingsProblem> ReadingsFrom(const v1::Nominal& nominal, const Robot& robot,
+                                             const Sessions& sessions, v1::Observe observe) {
   TRUEPOSE_RETURN_IF_ERROR(CheckSessions(nominal, sessions));
   return Collector(robot, sessions, observe).Run();
 }
 
-absl::StatusOr<std::vector<std::string>> ColumnValues(const Sessions& sessions, const std::string& column,
+absl::StatusOr<std::vector<std::string>> ColumnValues(const Sessions& sessions,
+                                                      const std::string& column,
                                                       const std::string& field) {
   std::vector<std::string> values;
   for (const v1::SessionInput* session : sessions) {

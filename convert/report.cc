@@ -21,7 +21,8 @@ v1::PoseStatistics StatisticsToProto(const std::vector<PoseError>& errors) {
   const PoseStatistics statistics = PoseStatisticsOf(errors);
   v1::PoseStatistics message;
   *message.mutable_position_mm() = ToProto(statistics.position_m, kMmPerM);
-  if (statistics.has_rotation) *message.mutable_rotation_deg() = ToProto(statistics.rotation_rad, kDegPerRad);
+  if (statistics.has_rotation)
+    *message.mutable_rotation_deg() = ToProto(statistics.rotation_rad, kDegPerRad);
   return message;
 }
 
@@ -31,19 +32,25 @@ v1::ParameterGroup GroupToProto(ParameterGroup group) {
 }
 
 // Coordinate 0..5 of a frame: position, then rotation vector.
-double Coordinate(const Pose& X, int index) { return index < 3 ? X.p(index) : LogRotation<double>(X.R)(index - 3); }
+double Coordinate(const Pose& X, int index) {
+  return index < 3 ? X.p(index) : LogRotation<double>(X.R)(index - 3);
+}
 
 struct NominalAndIdentified {
   double nominal, identified;
 };
 
-// Values of a candidate of the calibration part. Corrections of frames are shown as coordinates of the frame itself.
-NominalAndIdentified ValuesOf(const CalibrationResult& result, int candidate, const Pose& X_FT_nominal) {
+// Values of a candidate of the calibration part. Corrections of frames are shown as coordinates of
+// the frame itself.
+NominalAndIdentified ValuesOf(const CalibrationResult& result, int candidate,
+                              const Pose& X_FT_nominal) {
   const Estimate& estimate = result.identification.estimate;
-  const int bases = static_cast<int>(estimate.X_MB.size()), tools = static_cast<int>(estimate.X_FT.size());
+  const int bases = static_cast<int>(estimate.X_MB.size()),
+            tools = static_cast<int>(estimate.X_FT.size());
   const int frame = candidate / kFrameParameters, index = candidate % kFrameParameters;
   if (frame < bases) return {0, Coordinate(estimate.X_MB[frame], index)};
-  if (frame < bases + tools) return {Coordinate(X_FT_nominal, index), Coordinate(estimate.X_FT[frame - bases], index)};
+  if (frame < bases + tools)
+    return {Coordinate(X_FT_nominal, index), Coordinate(estimate.X_FT[frame - bases], index)};
   return {0, estimate.lambda(candidate - kFrameParameters * (bases + tools))};
 }
 
@@ -94,12 +101,14 @@ void AddRedundancies(const CalibrationResult& result, v1::CalibrationReport* rep
   }
 }
 
-v1::FrameEstimate FrameOf(const std::string& label, v1::ParameterGroup group, const Pose& X, FittedOn fitted_on) {
+v1::FrameEstimate FrameOf(const std::string& label, v1::ParameterGroup group, const Pose& X,
+                          FittedOn fitted_on) {
   v1::FrameEstimate frame;
   frame.set_name(label);
   frame.set_group(group);
   *frame.mutable_pose() = convert::ToProto(X);
-  frame.set_fitted_on(fitted_on == FittedOn::kCalibrationRows ? "calibration rows" : "its own rows");
+  frame.set_fitted_on(fitted_on == FittedOn::kCalibrationRows ? "calibration rows"
+                                                              : "its own rows");
   return frame;
 }
 
@@ -111,7 +120,8 @@ v1::SetReport SetReportOf(const SetResult& set, const std::vector<RowOf>& rows) 
   *report.mutable_before() = StatisticsToProto(set.before);
   *report.mutable_after() = StatisticsToProto(set.after);
   std::vector<std::pair<int, int>> selected;
-  for (const PoseError& error : set.before) selected.emplace_back(rows[error.id].session, rows[error.id].row);
+  for (const PoseError& error : set.before)
+    selected.emplace_back(rows[error.id].session, rows[error.id].row);
   report.set_digest(RowsDigest(selected));
   return report;
 }
@@ -133,8 +143,10 @@ std::vector<v1::RowResidual> ResidualsOf(const SetResult& complete, const std::v
   return residuals;
 }
 
-std::vector<v1::FrameEstimate> FramesOf(const Estimate& estimate, const std::vector<std::string>& placements,
-                                        const std::vector<std::string>& targets, const std::vector<FittedOn>& base,
+std::vector<v1::FrameEstimate> FramesOf(const Estimate& estimate,
+                                        const std::vector<std::string>& placements,
+                                        const std::vector<std::string>& targets,
+                                        const std::vector<FittedOn>& base,
                                         const std::vector<FittedOn>& tool) {
   std::vector<v1::FrameEstimate> frames;
   for (size_t i = 0; i < placements.size(); ++i) {
@@ -160,8 +172,9 @@ v1::CalibrationReport ReportOf(const CalibrationResult& result, const ReadingsPr
   report.set_verdict(Name(result.verdict.decision));
   for (const std::string& reason : result.verdict.reasons) report.add_verdict_reasons(reason);
   *report.mutable_summary() = SummaryOf(result.identification);
-  for (v1::FrameEstimate& frame : FramesOf(result.after_frames, readings.problem.placements, readings.problem.targets,
-                                           result.base_fitted_on, result.tool_fitted_on)) {
+  for (v1::FrameEstimate& frame :
+       FramesOf(result.after_frames, readings.problem.placements, readings.problem.targets,
+                result.base_fitted_on, result.tool_fitted_on)) {
     *report.add_frames() = std::move(frame);
   }
   return report;
@@ -175,7 +188,8 @@ void FillParameters(const CalibrationResult& result, v1::Calibration* calibratio
   }
   const Eigen::MatrixXd& covariance = result.identification.covariance;
   for (Eigen::Index i = 0; i < covariance.rows(); ++i) {
-    for (Eigen::Index j = 0; j < covariance.cols(); ++j) calibration->add_covariance(covariance(i, j));
+    for (Eigen::Index j = 0; j < covariance.cols(); ++j)
+      calibration->add_covariance(covariance(i, j));
   }
 }
 

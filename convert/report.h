@@ -19,11 +19,14 @@ v1::SetReport SetReportOf(const SetResult& set, const std::vector<RowOf>& rows);
 std::vector<v1::RowResidual> ResidualsOf(const SetResult& complete, const std::vector<RowOf>& rows,
                                          const std::vector<bool>& calibrates);
 
-std::vector<v1::FrameEstimate> FramesOf(const Estimate& estimate, const std::vector<std::string>& placements,
+std::vector<v1::FrameEstimate> FramesOf(const Estimate& estimate,
+                                        const std::vector<std::string>& placements,
                                         const std::vector<std::string>& targets,
-                                        const std::vector<FittedOn>& base, const std::vector<FittedOn>& tool);
+                                        const std::vector<FittedOn>& base,
+                                        const std::vector<FittedOn>& tool);
 
-// Report without warnings, split and joints_used. @param X_FT_nominal nominal values of the tool's parameters.
+// Report without warnings, split and joints_used. @param X_FT_nominal nominal values of the tool's
+// parameters.
 v1::CalibrationReport ReportOf(const CalibrationResult& result, const ReadingsProblem& readings,
                                const std::optional<Pose>& X_FT_nominal);
 

@@ -25,33 +25,43 @@ std::vector<Joint> JointsFrom(const v1::Nominal& nominal, FaultList* faults) {
     const v1::Joint& joint = nominal.joints(i);
     const std::string field = absl::StrCat("joints[", i, "]");
     if (joint.name().empty()) faults->Add(field + ".name", "an empty name", "a name");
-    if (!names.insert(joint.name()).second) faults->Add(field + ".name", absl::StrCat("'", joint.name(), "' again"), "a name of its own");
+    if (!names.insert(joint.name()).second)
+      faults->Add(field + ".name", absl::StrCat("'", joint.name(), "' again"), "a name of its own");
     if (joint.type() != v1::REVOLUTE && joint.type() != v1::PRISMATIC) {
-      faults->Add(field + ".type", absl::StrCat(static_cast<int>(joint.type())), "REVOLUTE or PRISMATIC");
+      faults->Add(field + ".type", absl::StrCat(static_cast<int>(joint.type())),
+                  "REVOLUTE or PRISMATIC");
     }
-    joints.push_back({joint.name(), joint.type() == v1::PRISMATIC ? JointType::kPrismatic : JointType::kRevolute,
-                      joint.has_lower() ? joint.lower() : -kInfinity, joint.has_upper() ? joint.upper() : kInfinity});
+    joints.push_back({joint.name(),
+                      joint.type() == v1::PRISMATIC ? JointType::kPrismatic : JointType::kRevolute,
+                      joint.has_lower() ? joint.lower() : -kInfinity,
+                      joint.has_upper() ? joint.upper() : kInfinity});
   }
   return joints;
 }
 
-ElementaryTransform ElementFrom(const v1::ElementaryTransform& message, const std::string& field, bool joint_allowed,
-                                FaultList* faults) {
-  if (message.motion() == v1::ElementaryTransform::MOTION_UNSPECIFIED || message.axis() == v1::AXIS_UNSPECIFIED ||
+ElementaryTransform ElementFrom(const v1::ElementaryTransform& message, const std::string& field,
+                                bool joint_allowed, FaultList* faults) {
+  if (message.motion() == v1::ElementaryTransform::MOTION_UNSPECIFIED ||
+      message.axis() == v1::AXIS_UNSPECIFIED ||
       message.motion() > v1::ElementaryTransform::TRANSLATION || message.axis() > v1::Z) {
     faults->Add(field, "no motion or axis", "ROTATION or TRANSLATION with X, Y or Z");
   }
-  if (message.has_joint() && !joint_allowed) faults->Add(field + ".joint", "a joint", "constants only");
-  if (message.has_joint() && message.joint() < 0) faults->Add(field + ".joint", absl::StrCat(message.joint()), "a joint from 0");
+  if (message.has_joint() && !joint_allowed)
+    faults->Add(field + ".joint", "a joint", "constants only");
+  if (message.has_joint() && message.joint() < 0)
+    faults->Add(field + ".joint", absl::StrCat(message.joint()), "a joint from 0");
   CheckFinite(message.constant(), field + ".constant", faults);
   const bool rotation = message.motion() == v1::ElementaryTransform::ROTATION;
-  return {rotation ? Motion::kRotation : Motion::kTranslation, static_cast<Axis>(std::max(0, message.axis() - 1)),
-          message.constant(), message.has_joint() ? message.joint() : -1, -1};
+  return {rotation ? Motion::kRotation : Motion::kTranslation,
+          static_cast<Axis>(std::max(0, message.axis() - 1)), message.constant(),
+          message.has_joint() ? message.joint() : -1, -1};
 }
 
-std::vector<DhRow> RowsFrom(const v1::DhTable& table, const std::string& field, int joints, FaultList* faults) {
+std::vector<DhRow> RowsFrom(const v1::DhTable& table, const std::string& field, int joints,
+                            FaultList* faults) {
   if (table.rows_size() != joints) {
-    faults->Add(field + ".rows", absl::StrCat(table.rows_size(), " rows"), absl::StrCat(joints, ", one for each joint"));
+    faults->Add(field + ".rows", absl::StrCat(table.rows_size(), " rows"),
+                absl::StrCat(joints, ", one for each joint"));
   }
   std::vector<DhRow> rows;
   for (int i = 0; i < table.rows_size(); ++i) {
@@ -73,8 +83,8 @@ Chain ChainFrom(const v1::Geometry& geometry, const std::vector<Joint>& joints, 
   if (geometry.has_chain()) {
     Chain chain;
     for (int i = 0; i < geometry.chain().elements_size(); ++i) {
-      chain.push_back(ElementFrom(geometry.chain().elements(i), absl::StrCat("geometry.chain.elements[", i, "]"),
-                                  true, faults));
+      chain.push_back(ElementFrom(geometry.chain().elements(i),
+                                  absl::StrCat("geometry.chain.elements[", i, "]"), true, faults));
     }
     return chain;
   }
@@ -83,15 +93,17 @@ Chain ChainFrom(const v1::Geometry& geometry, const std::vector<Joint>& joints, 
     return {};
   }
   const bool standard = geometry.has_standard_dh();
-  const std::vector<DhRow> rows = RowsFrom(standard ? geometry.standard_dh() : geometry.craig_dh(),
-                                           standard ? "geometry.standard_dh" : "geometry.craig_dh", n, faults);
+  const std::vector<DhRow> rows =
+      RowsFrom(standard ? geometry.standard_dh() : geometry.craig_dh(),
+               standard ? "geometry.standard_dh" : "geometry.craig_dh", n, faults);
   if (static_cast<int>(rows.size()) != n) return {};
   return standard ? ChainFromStandardDh(rows, types) : ChainFromCraigDh(rows, types);
 }
 
 void AppendFlange(const v1::Geometry& geometry, Chain* chain, FaultList* faults) {
   for (int i = 0; i < geometry.flange_size(); ++i) {
-    chain->push_back(ElementFrom(geometry.flange(i), absl::StrCat("geometry.flange[", i, "]"), false, faults));
+    chain->push_back(
+        ElementFrom(geometry.flange(i), absl::StrCat("geometry.flange[", i, "]"), false, faults));
   }
 }
 
@@ -100,12 +112,14 @@ JointMap MapFrom(const v1::Nominal& nominal, FaultList* faults) {
   JointMap map = JointMap::Identity(n);
   const v1::JointMap& message = nominal.joint_map();
   if (message.scale_size() != 0 && message.scale_size() != n * n) {
-    faults->Add("joint_map.scale", absl::StrCat(message.scale_size(), " values"), absl::StrCat(n * n, ", row by row"));
+    faults->Add("joint_map.scale", absl::StrCat(message.scale_size(), " values"),
+                absl::StrCat(n * n, ", row by row"));
   } else if (message.scale_size() != 0) {
     for (int i = 0; i < n * n; ++i) map.scale(i / n, i % n) = message.scale(i);
   }
   if (message.offset_size() != 0 && message.offset_size() != n) {
-    faults->Add("joint_map.offset", absl::StrCat(message.offset_size(), " values"), absl::StrCat(n));
+    faults->Add("joint_map.offset", absl::StrCat(message.offset_size(), " values"),
+                absl::StrCat(n));
   } else if (message.offset_size() != 0) {
     for (int i = 0; i < n; ++i) map.offset(i) = message.offset(i);
   }
@@ -117,7 +131,8 @@ void CheckTools(const v1::Nominal& nominal, FaultList* faults) {
   for (int i = 0; i < nominal.tools_size(); ++i) {
     const std::string field = absl::StrCat("tools[", i, "]");
     if (!names.insert(nominal.tools(i).name()).second) {
-      faults->Add(field + ".name", absl::StrCat("'", nominal.tools(i).name(), "' again"), "a name of its own");
+      faults->Add(field + ".name", absl::StrCat("'", nominal.tools(i).name(), "' again"),
+                  "a name of its own");
     }
     CheckPose(nominal.tools(i).pose(), field + ".pose", faults);
   }
@@ -136,7 +151,8 @@ absl::StatusOr<Robot> RobotFrom(const v1::Nominal& nominal) {
   return Robot::Create(std::move(joints), std::move(chain), std::move(map));
 }
 
-absl::StatusOr<Pose> ToolByName(const v1::Nominal& nominal, const std::string& name, const std::string& field) {
+absl::StatusOr<Pose> ToolByName(const v1::Nominal& nominal, const std::string& name,
+                                const std::string& field) {
   std::vector<std::string> names;
   for (const v1::Tool& tool : nominal.tools()) {
     if (tool.name() == name) return PoseFrom(tool.pose());

@@ -14,6 +14,7 @@ namespace truepose::convert {
 absl::StatusOr<Robot> RobotFrom(const v1::Nominal& nominal);
 
 // X_FT of a tool by name. kInvalidArgument with a fault of `field` that lists the tools there are.
-absl::StatusOr<Pose> ToolByName(const v1::Nominal& nominal, const std::string& name, const std::string& field);
+absl::StatusOr<Pose> ToolByName(const v1::Nominal& nominal, const std::string& name,
+                                const std::string& field);
 
 }  // namespace truepose::convert

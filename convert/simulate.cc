@@ -17,7 +17,8 @@ absl::Status CheckOptions(const SimulationOptions& options) {
   const auto check = [&](const char* field, double value) {
     if (!(value >= 0) || !std::isfinite(value)) faults.Add(field, absl::StrCat(value), "0 or more");
   };
-  if (options.poses < 1 || options.poses > 1000000) faults.Add("poses", absl::StrCat(options.poses), "1 to 1000000");
+  if (options.poses < 1 || options.poses > 1000000)
+    faults.Add("poses", absl::StrCat(options.poses), "1 to 1000000");
   check("length_error_sd_m", options.length_error_sd_m);
   check("angle_error_sd_rad", options.angle_error_sd_rad);
   check("position_noise_sd_m", options.position_noise_sd_m);
@@ -30,24 +31,34 @@ absl::Status CheckOptions(const SimulationOptions& options) {
 }
 
 SimulateOptions CoreOptions(const SimulationOptions& options) {
-  return {options.poses, options.seed, options.length_error_sd_m, options.angle_error_sd_rad,
-          options.position_noise_sd_m, options.rotation_noise_sd_rad, options.joint_noise_sd,
-          options.encoder_resolution, options.joint_range_rad, options.prismatic_range_m};
+  return {options.poses,
+          options.seed,
+          options.length_error_sd_m,
+          options.angle_error_sd_rad,
+          options.position_noise_sd_m,
+          options.rotation_noise_sd_rad,
+          options.joint_noise_sd,
+          options.encoder_resolution,
+          options.joint_range_rad,
+          options.prismatic_range_m};
 }
 
-v1::Reading ReadingOf(const SimulatedReading& simulated, int row, const SimulationOptions& options) {
+v1::Reading ReadingOf(const SimulatedReading& simulated, int row,
+                      const SimulationOptions& options) {
   v1::Reading reading;
   reading.set_row(row);
   for (double value : simulated.q_controller) reading.add_joints_measured(value);
   *reading.mutable_position_m() = ToProto(simulated.X_MT.p);
   *reading.mutable_orientation() = QuaternionToProto(simulated.X_MT.R);
-  *reading.mutable_position_sd_m() = ToProto(Eigen::Vector3d::Constant(options.position_noise_sd_m).eval());
+  *reading.mutable_position_sd_m() =
+      ToProto(Eigen::Vector3d::Constant(options.position_noise_sd_m).eval());
   return reading;
 }
 
 }  // namespace
 
-absl::StatusOr<Simulation> RunSimulation(const v1::Nominal& nominal, const SimulationOptions& options) {
+absl::StatusOr<Simulation> RunSimulation(const v1::Nominal& nominal,
+                                         const SimulationOptions& options) {
   TRUEPOSE_RETURN_IF_ERROR(CheckOptions(options));
   TRUEPOSE_ASSIGN_OR_RETURN(const Robot robot, RobotFrom(nominal));
   const Model model = ModifiedIncremental(robot, ModelExtent::kInternal);
@@ -58,7 +69,8 @@ absl::StatusOr<Simulation> RunSimulation(const v1::Nominal& nominal, const Simul
   header->set_source(absl::StrCat("simulated, seed ", options.seed));
   header->set_reading_count(static_cast<int>(session.readings.size()));
   for (size_t i = 0; i < session.readings.size(); ++i) {
-    *simulation.session.add_readings() = ReadingOf(session.readings[i], static_cast<int>(i), options);
+    *simulation.session.add_readings() =
+        ReadingOf(session.readings[i], static_cast<int>(i), options);
   }
   simulation.convention = model.convention;
   for (int i = 0; i < model.parameters.size(); ++i) {

@@ -15,9 +15,12 @@ namespace truepose {
 namespace {
 
 constexpr char kForms[] =
-    "even-odd, first:N, every:K, spaced:N, random:SEED[:FRACTION] with 0 < FRACTION < 1, or column:NAME=VALUE";
+    "even-odd, first:N, every:K, spaced:N, random:SEED[:FRACTION] with 0 < FRACTION < 1, or "
+    "column:NAME=VALUE";
 
-bool ParseCount(const std::string& text, long long* count) { return absl::SimpleAtoi(text, count) && *count > 0; }
+bool ParseCount(const std::string& text, long long* count) {
+  return absl::SimpleAtoi(text, count) && *count > 0;
+}
 
 bool ParseRandom(const std::vector<std::string>& parts, Split* split) {
   uint64_t seed = 0;
@@ -82,7 +85,8 @@ std::vector<bool> RandomUnits(const Split& split, int units) {
   std::vector<int> order(units);
   std::iota(order.begin(), order.end(), 0);
   Random random(split.seed);
-  for (int i = units - 1; i > 0; --i) std::swap(order[i], order[random.Below(static_cast<uint64_t>(i) + 1)]);
+  for (int i = units - 1; i > 0; --i)
+    std::swap(order[i], order[random.Below(static_cast<uint64_t>(i) + 1)]);
   std::vector<bool> calibrates(units, false);
   const long count = std::lround(split.fraction * units);
   for (long i = 0; i < count; ++i) calibrates[order[i]] = true;
@@ -91,7 +95,8 @@ std::vector<bool> RandomUnits(const Split& split, int units) {
 
 std::vector<bool> SpacedUnits(long long count, int units) {
   std::vector<bool> calibrates(units, false);
-  for (long long i = 0; i < count; ++i) calibrates[count == 1 ? 0 : i * (units - 1) / (count - 1)] = true;
+  for (long long i = 0; i < count; ++i)
+    calibrates[count == 1 ? 0 : i * (units - 1) / (count - 1)] = true;
   return calibrates;
 }
 
@@ -108,7 +113,8 @@ std::vector<bool> CountedUnits(const Split& split, int units) {
   return calibrates;
 }
 
-absl::StatusOr<std::vector<bool>> ByColumn(const Split& split, const std::vector<std::string>& values,
+absl::StatusOr<std::vector<bool>> ByColumn(const Split& split,
+                                           const std::vector<std::string>& values,
                                            const std::vector<int>& units, int unit_count) {
   std::vector<bool> rows(values.size());
   std::vector<int> role_of_unit(unit_count, -1);
@@ -119,7 +125,8 @@ absl::StatusOr<std::vector<bool>> ByColumn(const Split& split, const std::vector
     rows[i] = !control;
     int& role = role_of_unit[units[i]];
     if (role >= 0 && role != static_cast<int>(control)) {
-      return SplitFault(absl::StrCat("column:", split.column, "=", split.value, " that divides the group of row ", i),
+      return SplitFault(absl::StrCat("column:", split.column, "=", split.value,
+                                     " that divides the group of row ", i),
                         "groups whose rows are all calibration or all control");
     }
     role = control;
@@ -134,7 +141,8 @@ absl::StatusOr<std::vector<bool>> ByColumn(const Split& split, const std::vector
 absl::Status CheckCounts(const Split& split, int units) {
   const bool counted = split.rule == SplitRule::kFirst || split.rule == SplitRule::kSpaced;
   if (counted && split.count > units) {
-    return SplitFault(absl::StrCat(split.count, " of ", units, " rows or groups"), "at most all of them");
+    return SplitFault(absl::StrCat(split.count, " of ", units, " rows or groups"),
+                      "at most all of them");
   }
   return absl::OkStatus();
 }
@@ -147,7 +155,8 @@ absl::StatusOr<Split> ParseSplit(const std::string& text) {
   return split;
 }
 
-absl::StatusOr<std::vector<bool>> ApplySplit(const Split& split, int rows, const std::vector<std::string>& groups,
+absl::StatusOr<std::vector<bool>> ApplySplit(const Split& split, int rows,
+                                             const std::vector<std::string>& groups,
                                              const std::vector<std::string>& values) {
   int unit_count = 0;
   const std::vector<int> units = UnitsOf(rows, groups, &unit_count);

@@ -28,7 +28,8 @@ std::vector<PoseError> PoseErrors(const Problem& problem, const Estimate& estima
   std::vector<PoseError> errors;
   for (const Reading& reading : problem.readings) {
     const Residual r = ResidualAt(problem, reading, estimate);
-    errors.push_back({reading.id, r.head<3>().norm(), r.size() > 3 ? r.tail(r.size() - 3).norm() : -1.0});
+    errors.push_back(
+        {reading.id, r.head<3>().norm(), r.size() > 3 ? r.tail(r.size() - 3).norm() : -1.0});
   }
   return errors;
 }
@@ -39,7 +40,8 @@ PoseStatistics PoseStatisticsOf(const std::vector<PoseError>& errors) {
     positions.push_back(error.position_m);
     if (error.rotation_rad >= 0) rotations.push_back(error.rotation_rad);
   }
-  return {static_cast<int>(errors.size()), StatisticsOf(positions), StatisticsOf(rotations), !rotations.empty()};
+  return {static_cast<int>(errors.size()), StatisticsOf(positions), StatisticsOf(rotations),
+          !rotations.empty()};
 }
 
 }  // namespace truepose

@@ -1,22 +1,23 @@
 // Sizes of pose errors over a set of readings.
 #pragma once
 
-#include <vector>
-
 #include <Eigen/Core>
+#include <vector>
 
 #include "core/identification/problem.h"
 
 namespace truepose {
 
-// Of a set of non-negative sizes. sd is that of the population, so rms^2 = mean^2 + sd^2. All zero for an empty set.
+// Of a set of non-negative sizes. sd is that of the population, so rms^2 = mean^2 + sd^2. All zero
+// for an empty set.
 struct Statistics {
   double mean = 0, sd = 0, rms = 0, max = 0;
 };
 
 Statistics StatisticsOf(const std::vector<double>& sizes);
 
-// One reading: |position residual| in m; angle of the rotation residual in rad, negative when none was measured.
+// One reading: |position residual| in m; angle of the rotation residual in rad, negative when none
+// was measured.
 struct PoseError {
   int id = 0;
   double position_m = 0;

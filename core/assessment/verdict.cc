@@ -13,16 +13,19 @@ namespace {
 constexpr int kDraws = 2000;
 
 int DroppedForReadings(const IdentifiableSet& set) {
-  return static_cast<int>(std::count_if(set.redundancies.begin(), set.redundancies.end(),
-                                        [](const NullRelation& relation) { return !relation.structural; }));
+  return static_cast<int>(
+      std::count_if(set.redundancies.begin(), set.redundancies.end(),
+                    [](const NullRelation& relation) { return !relation.structural; }));
 }
 
-void JudgeControl(const std::vector<PoseError>& before, const std::vector<PoseError>& after, Verdict* verdict) {
-  const double ratio = PoseStatisticsOf(after).position_m.rms / std::max(PoseStatisticsOf(before).position_m.rms, 1e-12);
+void JudgeControl(const std::vector<PoseError>& before, const std::vector<PoseError>& after,
+                  Verdict* verdict) {
+  const double ratio = PoseStatisticsOf(after).position_m.rms /
+                       std::max(PoseStatisticsOf(before).position_m.rms, 1e-12);
   const auto [low, high] = BootstrapRatio(before, after);
   verdict->reasons.push_back(absl::StrFormat(
-      "control RMS position after / before is %.3f, 95 %% interval %.3f to %.3f over %d rows", ratio, low, high,
-      before.size()));
+      "control RMS position after / before is %.3f, 95 %% interval %.3f to %.3f over %d rows",
+      ratio, low, high, before.size()));
   if (!(high < 1)) {
     verdict->decision = Decision::kDoNotApply;
     verdict->reasons.push_back("an improvement on the control set is not proved");
@@ -33,9 +36,12 @@ void JudgeControl(const std::vector<PoseError>& before, const std::vector<PoseEr
 
 const char* Name(Decision decision) {
   switch (decision) {
-    case Decision::kApply: return "apply";
-    case Decision::kApplyWithinVolume: return "apply_within_volume";
-    case Decision::kDoNotApply: break;
+    case Decision::kApply:
+      return "apply";
+    case Decision::kApplyWithinVolume:
+      return "apply_within_volume";
+    case Decision::kDoNotApply:
+      break;
   }
   return "do_not_apply";
 }
@@ -62,7 +68,8 @@ Verdict Judge(const Identification& identification, const std::vector<PoseError>
   verdict.decision = Decision::kApply;
   if (const int dropped = DroppedForReadings(identification.set); dropped > 0) {
     verdict.decision = Decision::kApplyWithinVolume;
-    verdict.reasons.push_back(absl::StrCat(dropped, " parameters stayed nominal because these readings do not determine them"));
+    verdict.reasons.push_back(absl::StrCat(
+        dropped, " parameters stayed nominal because these readings do not determine them"));
   }
   if (control_before.empty()) {
     verdict.decision = Decision::kApplyWithinVolume;
@@ -72,7 +79,8 @@ Verdict Judge(const Identification& identification, const std::vector<PoseError>
   }
   if (identification.summary.termination != Termination::kConverged) {
     verdict.decision = Decision::kDoNotApply;
-    verdict.reasons.push_back(absl::StrCat("identification ended with ", Name(identification.summary.termination)));
+    verdict.reasons.push_back(
+        absl::StrCat("identification ended with ", Name(identification.summary.termination)));
   }
   return verdict;
 }

@@ -18,16 +18,17 @@ struct Verdict {
 
 const char* Name(Decision decision);
 
-// Paired bootstrap of the ratio of control RMS positions after / before: 2,000 draws of rows with replacement, fixed
-// seed; @returns its 2.5 % and 97.5 % quantiles. @param before, after the same rows in the same order, not empty.
+// Paired bootstrap of the ratio of control RMS positions after / before: 2,000 draws of rows with
+// replacement, fixed seed; @returns its 2.5 % and 97.5 % quantiles. @param before, after the same
+// rows in the same order, not empty.
 struct Interval {
   double low, high;
 };
 Interval BootstrapRatio(const std::vector<PoseError>& before, const std::vector<PoseError>& after);
 
 // do_not_apply when the solver did not converge, or when that interval does not lie below 1;
-// apply_within_volume when parameters stayed nominal for want of readings, or when there is no control set;
-// apply otherwise.
+// apply_within_volume when parameters stayed nominal for want of readings, or when there is no
+// control set; apply otherwise.
 Verdict Judge(const Identification& identification, const std::vector<PoseError>& control_before,
               const std::vector<PoseError>& control_after);
 

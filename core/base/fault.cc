@@ -51,7 +51,8 @@ void FaultList::AddAll(const absl::Status& status, std::string_view prefix) {
   if (status.ok()) return;
   const std::vector<Fault> faults = FaultsOf(status);
   if (faults.empty()) Add(std::string(prefix), std::string(status.message()), "");
-  for (const Fault& fault : faults) Add(std::string(prefix) + fault.field, fault.found, fault.expected);
+  for (const Fault& fault : faults)
+    Add(std::string(prefix) + fault.field, fault.found, fault.expected);
 }
 
 absl::Status FaultList::ToStatus(absl::StatusCode code) const {

@@ -1,8 +1,9 @@
 // Faults of user input, gathered so that one answer names all of them.
 //
-// A fault says which field, what was found there and what was expected. A FaultList that is not empty becomes an
-// absl::Status whose message has one line a fault and whose payload carries the same three fields, so that the
-// boundary (server/rpc/status.cc, client/cli) can map them without parsing prose.
+// A fault says which field, what was found there and what was expected. A FaultList that is not
+// empty becomes an absl::Status whose message has one line a fault and whose payload carries the
+// same three fields, so that the boundary (server/rpc/status.cc, client/cli) can map them without
+// parsing prose.
 #pragma once
 
 #include <string>
@@ -28,15 +29,15 @@ class FaultList {
  public:
   void Add(std::string field, std::string found, std::string expected);
   void Add(Fault fault);
-  // Takes over the faults of `status`, each with `prefix` before its field. A status without faults becomes one
-  // fault of the field `prefix` with the status' message. OK adds nothing.
+  // Takes over the faults of `status`, each with `prefix` before its field. A status without faults
+  // becomes one fault of the field `prefix` with the status' message. OK adds nothing.
   void AddAll(const absl::Status& status, std::string_view prefix = "");
 
   bool empty() const { return faults_.empty(); }
   const std::vector<Fault>& faults() const { return faults_; }
 
-  // OK when empty; else `code` with every fault in message and payload. A list longer than 200 faults keeps the
-  // first 200 and says how many more there are.
+  // OK when empty; else `code` with every fault in message and payload. A list longer than 200
+  // faults keeps the first 200 and says how many more there are.
   absl::Status ToStatus(absl::StatusCode code = absl::StatusCode::kInvalidArgument) const;
 
  private:

@@ -1,4 +1,5 @@
-// How long work in the core reports and is stopped. Both are called from the working thread and must not block.
+// How long work in the core reports and is stopped. Both are called from the working thread and
+// must not block.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,5 @@
-// Numbers from a local, seeded generator that are the same on every platform; std distributions are not.
+// Numbers from a local, seeded generator that are the same on every platform; std distributions are
+// not.
 #pragma once
 
 #include <cmath>

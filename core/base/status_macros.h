@@ -9,9 +9,10 @@
 #define TRUEPOSE_CONCAT_INNER(a, b) a##b
 #define TRUEPOSE_CONCAT(a, b) TRUEPOSE_CONCAT_INNER(a, b)
 
-// TRUEPOSE_RETURN_IF_ERROR(expr): returns from the function with the status of expr when it is not OK.
-#define TRUEPOSE_RETURN_IF_ERROR(expr)                        \
-  do {                                                        \
+// TRUEPOSE_RETURN_IF_ERROR(expr): returns from the function with the status of expr when it is not
+// OK.
+#define TRUEPOSE_RETURN_IF_ERROR(expr)                                                           \
+  do {                                                                                           \
     if (absl::Status truepose_status_ = (expr); !truepose_status_.ok()) return truepose_status_; \
   } while (false)
 

@@ -15,14 +15,15 @@ int Renumbered(int whole, std::vector<int>* known) {
   return static_cast<int>(known->size()) - 1;
 }
 
-std::vector<std::string> LabelsOf(const std::vector<int>& indices, const std::vector<std::string>& labels) {
+std::vector<std::string> LabelsOf(const std::vector<int>& indices,
+                                  const std::vector<std::string>& labels) {
   std::vector<std::string> result;
   for (int index : indices) result.push_back(labels[index]);
   return result;
 }
 
-void Place(const std::vector<int>& indices, const std::vector<Pose>& frames, std::vector<Pose>* whole,
-           std::vector<bool>* known, std::vector<FittedOn>* fitted_on) {
+void Place(const std::vector<int>& indices, const std::vector<Pose>& frames,
+           std::vector<Pose>* whole, std::vector<bool>* known, std::vector<FittedOn>* fitted_on) {
   for (size_t i = 0; i < indices.size(); ++i) {
     (*whole)[indices[i]] = frames[i];
     (*known)[indices[i]] = true;
@@ -66,8 +67,9 @@ Problem WholeProblem(const CalibrationProblem& whole, const Model& model) {
   return {&model, whole.readings, whole.placements, whole.targets};
 }
 
-absl::StatusOr<WholeFrames> FramesOfWhole(const CalibrationProblem& whole, const Model& model, const Part& part,
-                                          const Identification& of_part, const Hooks& hooks) {
+absl::StatusOr<WholeFrames> FramesOfWhole(const CalibrationProblem& whole, const Model& model,
+                                          const Part& part, const Identification& of_part,
+                                          const Hooks& hooks) {
   const Problem problem = WholeProblem(whole, model);
   WholeFrames frames;
   frames.estimate = NominalEstimate(problem);
@@ -76,12 +78,15 @@ absl::StatusOr<WholeFrames> FramesOfWhole(const CalibrationProblem& whole, const
                        std::vector<bool>(problem.target_count(), false)};
   frames.base_fitted_on.assign(problem.placement_count(), FittedOn::kOwnRows);
   frames.tool_fitted_on.assign(problem.target_count(), FittedOn::kOwnRows);
-  Place(part.placements, of_part.estimate.X_MB, &options.known.X_MB, &options.base_known, &frames.base_fitted_on);
-  Place(part.targets, of_part.estimate.X_FT, &options.known.X_FT, &options.tool_known, &frames.tool_fitted_on);
+  Place(part.placements, of_part.estimate.X_MB, &options.known.X_MB, &options.base_known,
+        &frames.base_fitted_on);
+  Place(part.targets, of_part.estimate.X_FT, &options.known.X_FT, &options.tool_known,
+        &frames.tool_fitted_on);
   TRUEPOSE_ASSIGN_OR_RETURN(frames.estimate, FindStart(problem, options, hooks));
   frames.estimate.lambda = of_part.estimate.lambda;
   const std::vector<int> unknown = UnknownFrames(problem, options);
-  if (!unknown.empty()) Minimise(problem, of_part.model_error, unknown, SolveOptions{}, hooks, &frames.estimate);
+  if (!unknown.empty())
+    Minimise(problem, of_part.model_error, unknown, SolveOptions{}, hooks, &frames.estimate);
   return frames;
 }
 

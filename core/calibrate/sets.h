@@ -19,13 +19,14 @@ Part PartOf(const CalibrationProblem& whole, const Model& model, const std::vect
 // All readings with the frames of the whole.
 Problem WholeProblem(const CalibrationProblem& whole, const Model& model);
 
-// Frames of the whole from those of the part; frames that the part does not have are fitted on their own rows with
-// lambda and the known frames held.
+// Frames of the whole from those of the part; frames that the part does not have are fitted on
+// their own rows with lambda and the known frames held.
 struct WholeFrames {
   Estimate estimate;
   std::vector<FittedOn> base_fitted_on, tool_fitted_on;
 };
-absl::StatusOr<WholeFrames> FramesOfWhole(const CalibrationProblem& whole, const Model& model, const Part& part,
-                                          const Identification& of_part, const Hooks& hooks);
+absl::StatusOr<WholeFrames> FramesOfWhole(const CalibrationProblem& whole, const Model& model,
+                                          const Part& part, const Identification& of_part,
+                                          const Hooks& hooks);
 
 }  // namespace truepose

@@ -4,7 +4,9 @@
 
 namespace truepose {
 
-ElementaryTransform Rotation(Axis axis, double angle_rad) { return {Motion::kRotation, axis, angle_rad, -1, -1}; }
+ElementaryTransform Rotation(Axis axis, double angle_rad) {
+  return {Motion::kRotation, axis, angle_rad, -1, -1};
+}
 
 ElementaryTransform Translation(Axis axis, double length_m) {
   return {Motion::kTranslation, axis, length_m, -1, -1};
@@ -37,7 +39,8 @@ Eigen::Matrix<double, 6, 1> ScrewOf(const ElementaryTransform& element, const Po
   return screw;
 }
 
-Eigen::Matrix<double, 6, 1> TwistAt(const Eigen::Vector3d& p, const Eigen::Matrix<double, 6, 1>& twist_0) {
+Eigen::Matrix<double, 6, 1> TwistAt(const Eigen::Vector3d& p,
+                                    const Eigen::Matrix<double, 6, 1>& twist_0) {
   Eigen::Matrix<double, 6, 1> twist = twist_0;
   twist.head<3>() += twist_0.tail<3>().cross(p);
   return twist;
@@ -49,7 +52,8 @@ void RunSweep(const Chain& chain, const double* q, const double* lambda, Sweep* 
   sweep->J_parameters.setZero(6, ParameterCount(chain));
   for (const ElementaryTransform& element : chain) {
     if (element.joint >= 0) sweep->J_joints.col(element.joint) += ScrewOf(element, sweep->X_0E);
-    if (element.parameter >= 0) sweep->J_parameters.col(element.parameter) += ScrewOf(element, sweep->X_0E);
+    if (element.parameter >= 0)
+      sweep->J_parameters.col(element.parameter) += ScrewOf(element, sweep->X_0E);
     Apply(element.motion, element.axis, ValueOf(element, q, lambda), &sweep->X_0E);
   }
 }

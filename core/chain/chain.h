@@ -1,15 +1,16 @@
-// A chain is a sequence of elementary transforms R(u, v) or T(u, v), u in {x, y, z}, v = constant + joint + parameter.
-// Every nominal robot and every model of the chapter is one; there is no other kinematics in Truepose.
+// A chain is a sequence of elementary transforms R(u, v) or T(u, v), u in {x, y, z}, v = constant +
+// joint + parameter. Every nominal robot and every model of the chapter is one; there is no other
+// kinematics in Truepose.
 //
-// One sweep gives the pose X_0E of the chain's end E in its start frame 0 and, exactly, how that pose moves with each
-// joint and parameter (Eqs. 26-31): a rotation about the axis u through the point p gives the column [p x u; u], a
-// translation along u the column [u; 0]. A column is a twist at the *origin of frame 0* (style: twist_B); the velocity
-// of a point at position p is t + u x p (TwistAt), which is another quantity and is never stored under this name.
+// One sweep gives the pose X_0E of the chain's end E in its start frame 0 and, exactly, how that
+// pose moves with each joint and parameter (Eqs. 26-31): a rotation about the axis u through the
+// point p gives the column [p x u; u], a translation along u the column [u; 0]. A column is a twist
+// at the *origin of frame 0* (style: twist_B); the velocity of a point at position p is t + u x p
+// (TwistAt), which is another quantity and is never stored under this name.
 #pragma once
 
-#include <vector>
-
 #include <Eigen/Core>
+#include <vector>
 
 #include "core/geometry/pose.h"
 
@@ -61,7 +62,8 @@ T ValueOf(const ElementaryTransform& element, const T* q, const T* lambda) {
   return v;
 }
 
-// X_0E(q, lambda) alone. @param q JointCount values (rad, m), @param lambda ParameterCount values (rad, m).
+// X_0E(q, lambda) alone. @param q JointCount values (rad, m), @param lambda ParameterCount values
+// (rad, m).
 template <typename T>
 PoseT<T> Forward(const Chain& chain, const T* q, const T* lambda) {
   PoseT<T> X;
@@ -80,13 +82,15 @@ struct Sweep {
   Eigen::Matrix<double, 6, Eigen::Dynamic> J_parameters;  // 6 x ParameterCount
 };
 
-// Fills `sweep`, sizing its matrices at the first use. A joint or parameter that moves several elements gets the sum.
+// Fills `sweep`, sizing its matrices at the first use. A joint or parameter that moves several
+// elements gets the sum.
 void RunSweep(const Chain& chain, const double* q, const double* lambda, Sweep* sweep);
 
 // The column of one element at pose X before it: [p x u; u] or [u; 0].
 Eigen::Matrix<double, 6, 1> ScrewOf(const ElementaryTransform& element, const Pose& X);
 
 // Velocity of the point at p and angular velocity, of a twist at the origin: [t + u x p; u].
-Eigen::Matrix<double, 6, 1> TwistAt(const Eigen::Vector3d& p, const Eigen::Matrix<double, 6, 1>& twist_0);
+Eigen::Matrix<double, 6, 1> TwistAt(const Eigen::Vector3d& p,
+                                    const Eigen::Matrix<double, 6, 1>& twist_0);
 
 }  // namespace truepose

@@ -1,10 +1,9 @@
 #include "core/compensation/compensate.h"
 
+#include <Eigen/Dense>
 #include <cmath>
 #include <limits>
 #include <optional>
-
-#include <Eigen/Dense>
 
 #include "absl/strings/str_format.h"
 #include "core/base/random.h"
@@ -14,7 +13,8 @@ namespace {
 
 using Twist = Eigen::Matrix<double, 6, 1>;
 
-// Singular values below this share of the largest are not stepped along: near a singularity joints would run away.
+// Singular values below this share of the largest are not stepped along: near a singularity joints
+// would run away.
 constexpr double kSingular = 1e-9;
 constexpr double kLongestStep = 0.5;  // rad or m; a start from far away comes in pieces
 
@@ -27,7 +27,8 @@ Twist Remainder(const Pose& desired, const Pose& X_BF) {
 
 Eigen::VectorXd NewtonStep(const Sweep& sweep, const Twist& remainder) {
   Eigen::MatrixXd J(6, sweep.J_joints.cols());
-  for (Eigen::Index i = 0; i < J.cols(); ++i) J.col(i) = TwistAt(sweep.X_0E.p, sweep.J_joints.col(i));
+  for (Eigen::Index i = 0; i < J.cols(); ++i)
+    J.col(i) = TwistAt(sweep.X_0E.p, sweep.J_joints.col(i));
   Eigen::JacobiSVD<Eigen::MatrixXd> svd(J, Eigen::ComputeThinU | Eigen::ComputeThinV);
   svd.setThreshold(kSingular);
   Eigen::VectorXd step = svd.solve(remainder);
@@ -37,19 +38,23 @@ Eigen::VectorXd NewtonStep(const Sweep& sweep, const Twist& remainder) {
 }
 
 absl::Status NotReached(const Compensated& result) {
-  return absl::FailedPreconditionError(absl::StrFormat(
-      "not reached after %d steps, %.3g mm and %.3g deg are left: the target is out of reach or near a singularity",
-      result.iterations, 1e3 * result.position_residual_m, result.rotation_residual_rad * 180 / std::numbers::pi));
+  return absl::FailedPreconditionError(
+      absl::StrFormat("not reached after %d steps, %.3g mm and %.3g deg are left: the target is "
+                      "out of reach or near a singularity",
+                      result.iterations, 1e3 * result.position_residual_m,
+                      result.rotation_residual_rad * 180 / std::numbers::pi));
 }
 
 bool WithinLimits(const Robot& robot, const Eigen::VectorXd& q_controller) {
   for (int i = 0; i < robot.joint_count(); ++i) {
-    if (q_controller(i) < robot.joints()[i].lower || q_controller(i) > robot.joints()[i].upper) return false;
+    if (q_controller(i) < robot.joints()[i].lower || q_controller(i) > robot.joints()[i].upper)
+      return false;
   }
   return true;
 }
 
-// Turns revolute joints by whole turns to within half a turn of `near`, where the map leaves each its own.
+// Turns revolute joints by whole turns to within half a turn of `near`, where the map leaves each
+// its own.
 Eigen::VectorXd Unwound(const Robot& robot, Eigen::VectorXd q, const Eigen::VectorXd& near) {
   for (int i = 0; i < robot.joint_count(); ++i) {
     if (robot.joints()[i].type != JointType::kRevolute) continue;
@@ -72,8 +77,9 @@ Eigen::VectorXd DrawJoints(const Robot& robot, Random* random) {
 
 }  // namespace
 
-absl::StatusOr<Compensated> SolvePose(const Model& model, const Eigen::VectorXd& lambda, const Pose& X_BF_desired,
-                                      const Eigen::VectorXd& q_start, const CompensationOptions& options) {
+absl::StatusOr<Compensated> SolvePose(const Model& model, const Eigen::VectorXd& lambda,
+                                      const Pose& X_BF_desired, const Eigen::VectorXd& q_start,
+                                      const CompensationOptions& options) {
   Compensated result;
   result.q = q_start;
   Sweep sweep;
@@ -96,13 +102,15 @@ absl::StatusOr<Compensated> SolvePose(const Model& model, const Eigen::VectorXd&
 }
 
 absl::StatusOr<Compensated> CompensateJoints(const Model& model, const Eigen::VectorXd& lambda,
-                                             const Eigen::VectorXd& q_target, const CompensationOptions& options) {
+                                             const Eigen::VectorXd& q_target,
+                                             const CompensationOptions& options) {
   const Eigen::VectorXd nominal = Eigen::VectorXd::Zero(lambda.size());
   return SolvePose(model, lambda, Forward(model.chain, q_target, nominal), q_target, options);
 }
 
-absl::StatusOr<Eigen::VectorXd> NominalInverse(const Robot& robot, const Model& model, const Pose& X_BF,
-                                               const Eigen::VectorXd& preferred, const CompensationOptions& options) {
+absl::StatusOr<Eigen::VectorXd> NominalInverse(const Robot& robot, const Model& model,
+                                               const Pose& X_BF, const Eigen::VectorXd& preferred,
+                                               const CompensationOptions& options) {
   CompensationOptions patient = options;
   patient.max_iterations = 100;
   const Eigen::VectorXd nominal = Eigen::VectorXd::Zero(model.parameters.size());
@@ -122,7 +130,8 @@ absl::StatusOr<Eigen::VectorXd> NominalInverse(const Robot& robot, const Model& 
     if (start == 0) break;
   }
   if (best) return robot.joint_map().ToChain(*best);
-  if (last.ok()) return absl::FailedPreconditionError("every configuration found is beyond a joint limit");
+  if (last.ok())
+    return absl::FailedPreconditionError("every configuration found is beyond a joint limit");
   return last;
 }
 

@@ -30,8 +30,10 @@ PoseT<T> Inverse(const PoseT<T>& X_AB) {
   return {X_AB.R.transpose(), -(X_AB.R.transpose() * X_AB.p)};
 }
 
-// The rotation best aligning and the translation: X_AB that minimises sum |a_i - X_AB b_i|^2 (Kabsch).
-// @param a, b points as columns, 3 x k, k >= 1. With collinear points the rotation about their line is arbitrary.
+// The rotation best aligning and the translation: X_AB that minimises sum |a_i - X_AB b_i|^2
+// (Kabsch).
+// @param a, b points as columns, 3 x k, k >= 1. With collinear points the rotation about their line
+// is arbitrary.
 Pose AlignPoints(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b);
 
 }  // namespace truepose

@@ -1,14 +1,13 @@
-// Rotations of 3-space as matrices, and their exponential coordinates. Templates on the scalar, so that tests can run
-// them on Jets; nothing here allocates or fails.
+// Rotations of 3-space as matrices, and their exponential coordinates. Templates on the scalar, so
+// that tests can run them on Jets; nothing here allocates or fails.
 //
-// Conventions: R_AB turns coordinates in B into coordinates in A. A rotation vector r has direction of the axis and
-// length of the angle in rad, |r| <= pi.
+// Conventions: R_AB turns coordinates in B into coordinates in A. A rotation vector r has direction
+// of the axis and length of the angle in rad, |r| <= pi.
 #pragma once
-
-#include <cmath>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cmath>
 
 namespace truepose {
 
@@ -95,8 +94,9 @@ Matrix3<T> ExpRotation(const Vector3<T>& r) {
 inline Eigen::Matrix3d RightJacobianInverse(const Eigen::Vector3d& r) {
   const double squared = r.squaredNorm(), angle = std::sqrt(squared);
   // 1/a^2 - cot(a/2)/(2a), by its series where the two terms cancel.
-  const double c = angle < 1e-3 ? 1.0 / 12 + squared / 720
-                                : 1 / squared - std::cos(angle / 2) / (2 * angle * std::sin(angle / 2));
+  const double c = angle < 1e-3
+                       ? 1.0 / 12 + squared / 720
+                       : 1 / squared - std::cos(angle / 2) / (2 * angle * std::sin(angle / 2));
   const Eigen::Matrix3d h = Hat<double>(r);
   return Eigen::Matrix3d::Identity() + 0.5 * h + c * h * h;
 }

@@ -24,12 +24,14 @@ Reading DrawReading(const Robot& robot, ObservationKind kind, Random* random) {
 std::vector<ObservationKind> KindsOf(const Problem& problem) {
   std::vector<ObservationKind> kinds;
   for (const Reading& reading : problem.readings) {
-    if (std::find(kinds.begin(), kinds.end(), reading.kind) == kinds.end()) kinds.push_back(reading.kind);
+    if (std::find(kinds.begin(), kinds.end(), reading.kind) == kinds.end())
+      kinds.push_back(reading.kind);
   }
   return kinds;
 }
 
-// A residual of zero everywhere: derivatives of rotation residuals are then free of the residual's own size.
+// A residual of zero everywhere: derivatives of rotation residuals are then free of the residual's
+// own size.
 void MeasureExactly(const Problem& problem, const Estimate& estimate, Reading* reading) {
   reading->X_MT = estimate.X_MB[0] *
                   Forward<double>(problem.model->chain, reading->q.data(), estimate.lambda.data()) *
@@ -42,7 +44,8 @@ void MeasureExactly(const Problem& problem, const Estimate& estimate, Reading* r
 IdentifiableSet GenericIdentifiable(const Problem& problem, const Robot& robot) {
   Problem generic{problem.model, {}, {""}, {""}};
   Estimate estimate = NominalEstimate(generic);
-  // A target off the last axis and askew: on the axis fewer parameters would show (chapter-notes 10).
+  // A target off the last axis and askew: on the axis fewer parameters would show (chapter-notes
+  // 10).
   estimate.X_FT[0] = {ExpRotation<double>({0.3, -0.5, 0.2}), Eigen::Vector3d(0.05, -0.07, 0.11)};
   Random random(20260101);
   const std::vector<ObservationKind> kinds = KindsOf(problem);
@@ -52,7 +55,8 @@ IdentifiableSet GenericIdentifiable(const Problem& problem, const Robot& robot) 
   }
   IdentifiabilityOptions options;
   options.use_sd_bounds = false;
-  IdentifiableSet set = Identifiable(Whitened(generic, estimate, ModelError{}).J, Candidates(generic), options);
+  IdentifiableSet set =
+      Identifiable(Whitened(generic, estimate, ModelError{}).J, Candidates(generic), options);
   for (NullRelation& relation : set.redundancies) relation.structural = true;
   return set;
 }

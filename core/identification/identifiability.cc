@@ -1,9 +1,8 @@
 #include "core/identification/identifiability.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <numeric>
-
-#include <Eigen/Dense>
 
 namespace truepose {
 namespace {
@@ -16,18 +15,24 @@ std::vector<int> InOrderOfPreference(const ParameterSet& candidates) {
   return order;
 }
 
-// A triangle with the same column geometry as J: the greedy basis then costs nothing however many readings there are.
+// A triangle with the same column geometry as J: the greedy basis then costs nothing however many
+// readings there are.
 Eigen::MatrixXd TriangleOf(const Eigen::MatrixXd& J) {
   if (J.rows() <= J.cols()) return J;
-  return Eigen::HouseholderQR<Eigen::MatrixXd>(J).matrixQR().topRows(J.cols()).triangularView<Eigen::Upper>();
+  return Eigen::HouseholderQR<Eigen::MatrixXd>(J)
+      .matrixQR()
+      .topRows(J.cols())
+      .triangularView<Eigen::Upper>();
 }
 
 // Grows an orthonormal basis of the kept columns.
 class GreedyBasis {
  public:
-  GreedyBasis(const Eigen::MatrixXd& columns, int most) : columns_(columns), Q_(columns.rows(), most) {}
+  GreedyBasis(const Eigen::MatrixXd& columns, int most)
+      : columns_(columns), Q_(columns.rows(), most) {}
 
-  // The part of a column that the kept ones don't explain; projected twice, since once leaves rounding behind.
+  // The part of a column that the kept ones don't explain; projected twice, since once leaves
+  // rounding behind.
   Eigen::VectorXd Unexplained(int column) const {
     Eigen::VectorXd v = columns_.col(column);
     for (int pass = 0; pass < 2; ++pass) v -= Basis() * (Basis().transpose() * v);
@@ -49,7 +54,9 @@ class GreedyBasis {
   const std::vector<int>& kept() const { return kept_; }
 
  private:
-  Eigen::MatrixXd::ConstColsBlockXpr Basis() const { return Q_.leftCols(static_cast<Eigen::Index>(kept_.size())); }
+  Eigen::MatrixXd::ConstColsBlockXpr Basis() const {
+    return Q_.leftCols(static_cast<Eigen::Index>(kept_.size()));
+  }
 
   const Eigen::MatrixXd& columns_;
   Eigen::MatrixXd Q_;
@@ -67,14 +74,17 @@ NullRelation RelationOf(const Eigen::MatrixXd& columns, const GreedyBasis& basis
   const Eigen::VectorXd c = basis.Coefficients(column);
   for (Eigen::Index k = 0; k < c.size(); ++k) {
     const int kept = basis.kept()[static_cast<size_t>(k)];
-    if (std::abs(c(k)) * columns.col(kept).norm() > kNegligibleTerm * norm) relation.kept.emplace_back(kept, c(k));
+    if (std::abs(c(k)) * columns.col(kept).norm() > kNegligibleTerm * norm)
+      relation.kept.emplace_back(kept, c(k));
   }
   return relation;
 }
 
-bool IsUndetermined(const Parameter& parameter, double unexplained, const IdentifiabilityOptions& options) {
+bool IsUndetermined(const Parameter& parameter, double unexplained,
+                    const IdentifiabilityOptions& options) {
   if (!options.use_sd_bounds || parameter.role == ParameterRole::kExternal) return false;
-  return 1 / unexplained > (parameter.is_angle ? options.most_angle_sd_rad : options.most_length_sd_m);
+  return 1 / unexplained >
+         (parameter.is_angle ? options.most_angle_sd_rad : options.most_length_sd_m);
 }
 
 double ScaledCondition(const Eigen::MatrixXd& columns, const std::vector<int>& kept) {
@@ -90,7 +100,8 @@ double ScaledCondition(const Eigen::MatrixXd& columns, const std::vector<int>& k
 IdentifiableSet Identifiable(const Eigen::MatrixXd& J, const ParameterSet& candidates,
                              const IdentifiabilityOptions& options) {
   const Eigen::MatrixXd columns = TriangleOf(J);
-  // A column of the gauge is zero but for rounding, and would look independent once scaled: compare with the largest.
+  // A column of the gauge is zero but for rounding, and would look independent once scaled: compare
+  // with the largest.
   const double zero = 1e-13 * columns.colwise().norm().maxCoeff();
   GreedyBasis basis(columns, static_cast<int>(std::min(columns.rows(), columns.cols())));
   IdentifiableSet set;

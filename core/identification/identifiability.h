@@ -2,40 +2,45 @@
 //
 // The columns of the whitened identification Jacobian are taken in the order of preference
 //   base, tool, joint offsets, lengths, angles; proximal first inside each,
-// and a column is kept when the part of it that the kept ones don't explain is not null: a greedy basis. The kept set
-// is minimal by construction and complete since it spans the same space as all candidates (chapter, Sec. 9; a basis by
-// preference replaces the rule of choosing a partner, and gives Table 3's sets for the Stanford arm).
-// The Jacobian is that of the *actual* measurement and poses: Eqs. 11 and 12 are upper bounds only (chapter-notes 10).
+// and a column is kept when the part of it that the kept ones don't explain is not null: a greedy
+// basis. The kept set is minimal by construction and complete since it spans the same space as all
+// candidates (chapter, Sec. 9; a basis by preference replaces the rule of choosing a partner, and
+// gives Table 3's sets for the Stanford arm). The Jacobian is that of the *actual* measurement and
+// poses: Eqs. 11 and 12 are upper bounds only (chapter-notes 10).
 //
 // Two thresholds:
-//  - dependent: the unexplained part is below 1e-7 of the column (a double precision Jacobian leaves 1e-13 on exact
-//    relations, and no useful direction of a real session was seen below 1e-5); columns of norm zero go out first.
-//  - undetermined: given the kept ones, the standard deviation 1 / |unexplained part| of the parameter exceeds a bound,
-//    by default 20 mm / 2 deg: any nominal geometry is better than that, so the value stays nominal.
+//  - dependent: the unexplained part is below 1e-7 of the column (a double precision Jacobian
+//  leaves 1e-13 on exact
+//    relations, and no useful direction of a real session was seen below 1e-5); columns of norm
+//    zero go out first.
+//  - undetermined: given the kept ones, the standard deviation 1 / |unexplained part| of the
+//  parameter exceeds a bound,
+//    by default 20 mm / 2 deg: any nominal geometry is better than that, so the value stays
+//    nominal.
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "core/identification/problem.h"
 #include "core/identification/weights.h"
 
 namespace truepose {
 
-// dropped = sum coefficient_k * kept_k: the effect of a unit of `dropped` is that of these amounts of kept parameters.
+// dropped = sum coefficient_k * kept_k: the effect of a unit of `dropped` is that of these amounts
+// of kept parameters.
 struct NullRelation {
   int dropped = -1;
   std::vector<std::pair<int, double>> kept;  // candidate, coefficient in SI units
-  bool undetermined = false;                 // true: not dependent, but too weak; `kept` is then empty
-  bool structural = false;                   // true: holds for any poses of this kind of measurement
+  bool undetermined = false;  // true: not dependent, but too weak; `kept` is then empty
+  bool structural = false;    // true: holds for any poses of this kind of measurement
 };
 
 struct IdentifiableSet {
-  std::vector<int> active;               // kept candidates, ascending
+  std::vector<int> active;  // kept candidates, ascending
   std::vector<NullRelation> redundancies;
-  double condition = 0;                  // of the kept columns, each scaled to norm 1
+  double condition = 0;  // of the kept columns, each scaled to norm 1
 };
 
 struct IdentifiabilityOptions {
@@ -49,12 +54,13 @@ struct IdentifiabilityOptions {
 IdentifiableSet Identifiable(const Eigen::MatrixXd& J, const ParameterSet& candidates,
                              const IdentifiabilityOptions& options);
 
-// The same on generic poses of the problem's robot: joints drawn within +-1.5 rad and +-0.3 m of `middle`, the kinds of
-// measurement that the problem has, one placement and one target. What is dropped here is dropped for any readings.
+// The same on generic poses of the problem's robot: joints drawn within +-1.5 rad and +-0.3 m of
+// `middle`, the kinds of measurement that the problem has, one placement and one target. What is
+// dropped here is dropped for any readings.
 IdentifiableSet GenericIdentifiable(const Problem& problem, const Robot& robot);
 
-// "dbeta2 acts as 1 dq2 - 612.7 mm/rad db3": for people, terms by size. Relations that involve base or tool
-// name the frame instead of its six terms.
+// "dbeta2 acts as 1 dq2 - 612.7 mm/rad db3": for people, terms by size. Relations that involve base
+// or tool name the frame instead of its six terms.
 std::string RelationText(const NullRelation& relation, const ParameterSet& candidates);
 // A sentence that says why the parameter stayed at nominal.
 std::string ReasonText(const NullRelation& relation, const ParameterSet& candidates);

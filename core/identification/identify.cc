@@ -1,10 +1,9 @@
 #include "core/identification/identify.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <set>
-
-#include <Eigen/Dense>
 
 #include "absl/strings/str_cat.h"
 #include "core/base/fault.h"
@@ -30,22 +29,28 @@ void Accumulate(const SolveSummary& round, SolveSummary* total) {
   total->iterations = iterations;
 }
 
-// Solves and re-weights in turn until the weights stand; the last solve used the weights that are returned.
-absl::Status SolveWithWeights(const Problem& problem, const std::vector<int>& active, const IdentifyOptions& options,
-                              const Hooks& hooks, Identification* result) {
+// Solves and re-weights in turn until the weights stand; the last solve used the weights that are
+// returned.
+absl::Status SolveWithWeights(const Problem& problem, const std::vector<int>& active,
+                              const IdentifyOptions& options, const Hooks& hooks,
+                              Identification* result) {
   for (int round = 0; round < options.max_weight_rounds; ++round) {
-    Accumulate(Minimise(problem, result->model_error, active, options.solve, hooks, &result->estimate),
-               &result->summary);
-    if (result->summary.termination == Termination::kCancelled) return absl::CancelledError("cancelled");
+    Accumulate(
+        Minimise(problem, result->model_error, active, options.solve, hooks, &result->estimate),
+        &result->summary);
+    if (result->summary.termination == Termination::kCancelled)
+      return absl::CancelledError("cancelled");
     if (result->summary.termination == Termination::kFailed) return absl::OkStatus();
-    const ModelError next = EstimateModelError(problem, result->estimate, active, result->model_error);
+    const ModelError next =
+        EstimateModelError(problem, result->estimate, active, result->model_error);
     if (Stands(next, result->model_error, options.weight_tolerance)) return absl::OkStatus();
     result->model_error = next;
   }
   return absl::OkStatus();
 }
 
-IdentifiableSet ExternalSet(const Eigen::MatrixXd& J, const Problem& problem, IdentifiabilityOptions options) {
+IdentifiableSet ExternalSet(const Eigen::MatrixXd& J, const Problem& problem,
+                            IdentifiabilityOptions options) {
   ParameterSet external;
   const ParameterSet all = Candidates(problem);
   for (int i = 0; i < problem.FirstInternal(); ++i) external.Add(all[i]);
@@ -77,20 +82,26 @@ void Finish(const Problem& problem, Identification* result) {
   }
 }
 
-// The candidate of the generic problem (one placement, one target) that stands for a candidate of the real one.
+// The candidate of the generic problem (one placement, one target) that stands for a candidate of
+// the real one.
 int GenericIndex(const Problem& problem, int candidate) {
   if (candidate < problem.FirstOfTool(0)) return candidate % kFrameParameters;
   if (candidate < problem.FirstInternal()) return kFrameParameters + candidate % kFrameParameters;
   return 2 * kFrameParameters + candidate - problem.FirstInternal();
 }
 
-absl::Status CheckFrames(const Problem& problem, const IdentifiableSet& generic, const IdentifiableSet& actual) {
+absl::Status CheckFrames(const Problem& problem, const IdentifiableSet& generic,
+                         const IdentifiableSet& actual) {
   const std::set<int> possible(generic.active.begin(), generic.active.end());
   const ParameterSet names = Candidates(problem);
   FaultList faults;
   for (const NullRelation& relation : actual.redundancies) {
-    if (relation.dropped >= problem.FirstInternal() || !possible.contains(GenericIndex(problem, relation.dropped))) continue;
-    faults.Add(names[relation.dropped].name, absl::StrCat("not determined by ", problem.readings.size(), " readings: ", RelationText(relation, names)),
+    if (relation.dropped >= problem.FirstInternal() ||
+        !possible.contains(GenericIndex(problem, relation.dropped)))
+      continue;
+    faults.Add(names[relation.dropped].name,
+               absl::StrCat("not determined by ", problem.readings.size(),
+                            " readings: ", RelationText(relation, names)),
                "readings with more, and more different, positions and orientations of the flange");
   }
   return faults.ToStatus(absl::StatusCode::kFailedPrecondition);
@@ -99,16 +110,19 @@ absl::Status CheckFrames(const Problem& problem, const IdentifiableSet& generic,
 void MarkStructural(const Problem& problem, const IdentifiableSet& generic, IdentifiableSet* set) {
   const std::set<int> possible(generic.active.begin(), generic.active.end());
   for (NullRelation& relation : set->redundancies) {
-    relation.structural = !relation.undetermined && !possible.contains(GenericIndex(problem, relation.dropped));
+    relation.structural =
+        !relation.undetermined && !possible.contains(GenericIndex(problem, relation.dropped));
   }
 }
 
-// Always at nominal lambda: there the model's own redundancies are exact. At identified parameters two nominally
-// parallel axes are a milliradian apart, a redundant parameter looks independent, and the basis that keeps it in place
-// of a strong one is worse conditioned by a factor of 1,000 (UR10: 15,000 against 50).
-IdentifiableSet SetAtNominal(const Problem& problem, const Identification& before, const ModelError& model_error,
-                             const IdentifiabilityOptions& options) {
-  return Identifiable(Whitened(problem, before.estimate, model_error).J, Candidates(problem), options);
+// Always at nominal lambda: there the model's own redundancies are exact. At identified parameters
+// two nominally parallel axes are a milliradian apart, a redundant parameter looks independent, and
+// the basis that keeps it in place of a strong one is worse conditioned by a factor of 1,000 (UR10:
+// 15,000 against 50).
+IdentifiableSet SetAtNominal(const Problem& problem, const Identification& before,
+                             const ModelError& model_error, const IdentifiabilityOptions& options) {
+  return Identifiable(Whitened(problem, before.estimate, model_error).J, Candidates(problem),
+                      options);
 }
 
 // Parameters that are no longer active go back to nominal.
@@ -119,13 +133,15 @@ void ResetInactive(const Problem& problem, const std::vector<int>& active, Estim
   }
 }
 
-// Solves for the kept candidates, then looks again with the weights found: some may prove too weak, never the reverse.
-absl::Status SolveKept(const Problem& problem, const Identification& before, const IdentifyOptions& options,
-                       const Hooks& hooks, Identification* result) {
+// Solves for the kept candidates, then looks again with the weights found: some may prove too weak,
+// never the reverse.
+absl::Status SolveKept(const Problem& problem, const Identification& before,
+                       const IdentifyOptions& options, const Hooks& hooks, Identification* result) {
   for (int look = 0; look < 4; ++look) {
     TRUEPOSE_RETURN_IF_ERROR(SolveWithWeights(problem, result->set.active, options, hooks, result));
     if (result->summary.termination == Termination::kFailed) return absl::OkStatus();
-    IdentifiableSet again = SetAtNominal(problem, before, result->model_error, options.identifiability);
+    IdentifiableSet again =
+        SetAtNominal(problem, before, result->model_error, options.identifiability);
     const bool fewer = again.active.size() < result->set.active.size();
     result->set.condition = again.condition;
     if (!fewer) return absl::OkStatus();
@@ -137,24 +153,26 @@ absl::Status SolveKept(const Problem& problem, const Identification& before, con
 
 }  // namespace
 
-absl::StatusOr<Identification> FitFrames(const Problem& problem, const Estimate& start, const IdentifyOptions& options,
-                                         const Hooks& hooks) {
+absl::StatusOr<Identification> FitFrames(const Problem& problem, const Estimate& start,
+                                         const IdentifyOptions& options, const Hooks& hooks) {
   Identification result;
   result.estimate = start;
-  result.set = ExternalSet(Whitened(problem, start, result.model_error).J, problem, options.identifiability);
+  result.set =
+      ExternalSet(Whitened(problem, start, result.model_error).J, problem, options.identifiability);
   TRUEPOSE_RETURN_IF_ERROR(SolveWithWeights(problem, result.set.active, options, hooks, &result));
   Finish(problem, &result);
   return result;
 }
 
 absl::StatusOr<Identification> Identify(const Problem& problem, const IdentifiableSet& generic,
-                                        const Identification& before, const IdentifyOptions& options,
-                                        const Hooks& hooks) {
+                                        const Identification& before,
+                                        const IdentifyOptions& options, const Hooks& hooks) {
   Identification result;
   result.estimate = before.estimate;
   result.model_error = before.model_error;
   IdentifiabilityOptions dependence_only = options.identifiability;
-  dependence_only.use_sd_bounds = false;  // the weights of "before" are those of an uncalibrated robot
+  dependence_only.use_sd_bounds =
+      false;  // the weights of "before" are those of an uncalibrated robot
   result.set = SetAtNominal(problem, before, before.model_error, dependence_only);
   TRUEPOSE_RETURN_IF_ERROR(CheckFrames(problem, generic, result.set));
   TRUEPOSE_RETURN_IF_ERROR(SolveKept(problem, before, options, hooks, &result));

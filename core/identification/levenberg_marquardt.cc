@@ -1,9 +1,9 @@
 #include "core/identification/levenberg_marquardt.h"
 
+#include <ceres/ceres.h>
+
 #include <algorithm>
 #include <memory>
-
-#include <ceres/ceres.h>
 
 #include "core/identification/prediction.h"
 
@@ -17,10 +17,15 @@ class ReadingCost final : public ceres::CostFunction {
  public:
   ReadingCost(const Model& model, const Reading& reading, const Pose& X_MB, const Pose& X_FT,
               const ModelError& model_error, Workspace* workspace)
-      : model_(model), reading_(reading), X_MB_(X_MB), X_FT_(X_FT),
-        weight_(StandardDeviations(reading, model_error).cwiseInverse()), workspace_(workspace) {
+      : model_(model),
+        reading_(reading),
+        X_MB_(X_MB),
+        X_FT_(X_FT),
+        weight_(StandardDeviations(reading, model_error).cwiseInverse()),
+        workspace_(workspace) {
     set_num_residuals(RowsOf(reading));
-    *mutable_parameter_block_sizes() = {kFrameParameters, kFrameParameters, model.parameters.size()};
+    *mutable_parameter_block_sizes() = {kFrameParameters, kFrameParameters,
+                                        model.parameters.size()};
   }
 
   bool Evaluate(double const* const* p, double* residuals, double** jacobians) const override {
@@ -39,8 +44,8 @@ class ReadingCost final : public ceres::CostFunction {
  private:
   void CopyTo(const RowJacobian& J, double* out) const {
     if (out == nullptr) return;
-    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(out, J.rows(), J.cols()) =
-        weight_.asDiagonal() * J;
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+        out, J.rows(), J.cols()) = weight_.asDiagonal() * J;
   }
 
   const Model& model_;
@@ -63,7 +68,8 @@ class HooksCallback final : public ceres::IterationCallback {
 };
 
 // Holds the candidates of one block that are not active. @param first the block's first candidate.
-void HoldInactive(const std::vector<bool>& is_active, int first, int size, double* block, ceres::Problem* solver) {
+void HoldInactive(const std::vector<bool>& is_active, int first, int size, double* block,
+                  ceres::Problem* solver) {
   if (size == 0 || !solver->HasParameterBlock(block)) return;
   std::vector<int> held;
   for (int i = 0; i < size; ++i) {
@@ -98,22 +104,24 @@ Termination TerminationOf(const ceres::Solver::Summary& summary, const Hooks& ho
 void MoveFrames(const Corrections& corrections, std::vector<Pose>* frames) {
   for (size_t i = 0; i < frames->size(); ++i) {
     (*frames)[i] = Corrected((*frames)[i], corrections[i].data(), nullptr);
-    (*frames)[i].R = NearestRotation((*frames)[i].R);  // products of rotations drift from orthogonality
+    (*frames)[i].R =
+        NearestRotation((*frames)[i].R);  // products of rotations drift from orthogonality
   }
 }
 
 // The solver's view of a problem: its blocks of variables and one residual block a reading.
 class Blocks {
  public:
-  Blocks(const Problem& problem, const ModelError& model_error, const std::vector<int>& active, const Estimate& start)
+  Blocks(const Problem& problem, const ModelError& model_error, const std::vector<int>& active,
+         const Estimate& start)
       : base_(problem.placements.size()), tool_(problem.targets.size()), lambda_(start.lambda) {
     ceres::Problem::Options options;
     solver_ = std::make_unique<ceres::Problem>(options);
     for (const Reading& reading : problem.readings) {
-      solver_->AddResidualBlock(new ReadingCost(*problem.model, reading, start.X_MB[reading.placement],
-                                                start.X_FT[reading.target], model_error, &workspace_),
-                                nullptr, base_[reading.placement].data(), tool_[reading.target].data(),
-                                lambda_.data());
+      solver_->AddResidualBlock(
+          new ReadingCost(*problem.model, reading, start.X_MB[reading.placement],
+                          start.X_FT[reading.target], model_error, &workspace_),
+          nullptr, base_[reading.placement].data(), tool_[reading.target].data(), lambda_.data());
     }
     Hold(problem, active);
   }
@@ -131,14 +139,15 @@ class Blocks {
     std::vector<bool> is_active(problem.CandidateCount(), false);
     for (int index : active) is_active[index] = true;
     for (size_t i = 0; i < base_.size(); ++i) {
-      HoldInactive(is_active, problem.FirstOfBase(static_cast<int>(i)), kFrameParameters, base_[i].data(),
-                   solver_.get());
+      HoldInactive(is_active, problem.FirstOfBase(static_cast<int>(i)), kFrameParameters,
+                   base_[i].data(), solver_.get());
     }
     for (size_t i = 0; i < tool_.size(); ++i) {
-      HoldInactive(is_active, problem.FirstOfTool(static_cast<int>(i)), kFrameParameters, tool_[i].data(),
-                   solver_.get());
+      HoldInactive(is_active, problem.FirstOfTool(static_cast<int>(i)), kFrameParameters,
+                   tool_[i].data(), solver_.get());
     }
-    HoldInactive(is_active, problem.FirstInternal(), static_cast<int>(lambda_.size()), lambda_.data(), solver_.get());
+    HoldInactive(is_active, problem.FirstInternal(), static_cast<int>(lambda_.size()),
+                 lambda_.data(), solver_.get());
   }
 
   Corrections base_, tool_;
@@ -151,16 +160,21 @@ class Blocks {
 
 const char* Name(Termination termination) {
   switch (termination) {
-    case Termination::kConverged: return "converged";
-    case Termination::kIterationLimit: return "iteration_limit";
-    case Termination::kCancelled: return "cancelled";
-    case Termination::kFailed: break;
+    case Termination::kConverged:
+      return "converged";
+    case Termination::kIterationLimit:
+      return "iteration_limit";
+    case Termination::kCancelled:
+      return "cancelled";
+    case Termination::kFailed:
+      break;
   }
   return "failed";
 }
 
-SolveSummary Minimise(const Problem& problem, const ModelError& model_error, const std::vector<int>& active,
-                      const SolveOptions& options, const Hooks& hooks, Estimate* estimate) {
+SolveSummary Minimise(const Problem& problem, const ModelError& model_error,
+                      const std::vector<int>& active, const SolveOptions& options,
+                      const Hooks& hooks, Estimate* estimate) {
   Blocks blocks(problem, model_error, active, *estimate);
   HooksCallback callback(hooks);
   ceres::Solver::Summary summary;

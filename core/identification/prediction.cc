@@ -7,7 +7,8 @@ namespace {
 
 constexpr std::array<double, kFrameParameters> kNoCorrection = {};
 
-// Columns in frame A, expressed as velocity of the tool point and angular velocity in M. @param p_T tool point in M.
+// Columns in frame A, expressed as velocity of the tool point and angular velocity in M. @param p_T
+// tool point in M.
 void MoveTwists(const Pose& X_MA, const Eigen::Vector3d& p_T,
                 const Eigen::Ref<const Eigen::Matrix<double, 6, Eigen::Dynamic>>& twists_A,
                 Eigen::Matrix<double, 6, Eigen::Dynamic>* twists_M) {
@@ -21,17 +22,20 @@ void MoveTwists(const Pose& X_MA, const Eigen::Vector3d& p_T,
 
 }  // namespace
 
-void EvaluateReading(const Model& model, const Reading& reading, const Pose& X_MB0, const Pose& X_FT0,
-                     const double* base, const double* tool, const double* internal, Workspace* workspace,
-                     Residual* r, ReadingJacobian* J) {
+void EvaluateReading(const Model& model, const Reading& reading, const Pose& X_MB0,
+                     const Pose& X_FT0, const double* base, const double* tool,
+                     const double* internal, Workspace* workspace, Residual* r,
+                     ReadingJacobian* J) {
   if (J == nullptr) {
-    const Pose X_MT = Corrected(X_MB0, base, nullptr) * Forward<double>(model.chain, reading.q.data(), internal) *
+    const Pose X_MT = Corrected(X_MB0, base, nullptr) *
+                      Forward<double>(model.chain, reading.q.data(), internal) *
                       Corrected(X_FT0, tool, nullptr);
     KindOf(reading.kind).evaluate(reading, X_MT, r, nullptr);
     return;
   }
   FrameJacobian base_twists, tool_twists;
-  const Pose X_MB = Corrected(X_MB0, base, &base_twists), X_FT = Corrected(X_FT0, tool, &tool_twists);
+  const Pose X_MB = Corrected(X_MB0, base, &base_twists),
+             X_FT = Corrected(X_FT0, tool, &tool_twists);
   RunSweep(model.chain, reading.q.data(), internal, &workspace->sweep);
   const Pose X_MF = X_MB * workspace->sweep.X_0E, X_MT = X_MF * X_FT;
   ResidualByTwist D;

@@ -7,7 +7,8 @@
 namespace truepose {
 
 // rows x n, row-major as the solver wants it; at most 6 rows.
-using RowJacobian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, 6, Eigen::Dynamic>;
+using RowJacobian =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, 6, Eigen::Dynamic>;
 
 // Derivatives of the residual by the reading's own parameters.
 struct ReadingJacobian {
@@ -30,8 +31,8 @@ Pose Predict(const Problem& problem, const Reading& reading, const Estimate& est
 // @param base, tool six corrections each; internal model parameters.
 // @param r in m and rad, not weighted. @param J nullptr, or d r / d parameters.
 void EvaluateReading(const Model& model, const Reading& reading, const Pose& X_MB, const Pose& X_FT,
-                     const double* base, const double* tool, const double* internal, Workspace* workspace,
-                     Residual* r, ReadingJacobian* J);
+                     const double* base, const double* tool, const double* internal,
+                     Workspace* workspace, Residual* r, ReadingJacobian* J);
 
 // Residual of a reading at an estimate, corrections zero.
 Residual ResidualAt(const Problem& problem, const Reading& reading, const Estimate& estimate);

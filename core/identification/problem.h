@@ -1,14 +1,14 @@
 // The identification problem: X_MT = X_MB * X_BF(q, lambda) * X_FT against readings.
 //
-// Candidate parameters, in this order: six corrections of X_MB for each placement, six of X_FT for each target
-// (measurement/frame.h), then the model's internal parameters. B stands on the axis of joint 1 and F on the last one by
-// construction of the model, so what can't be told from a motion of base or tool is found dependent on them.
+// Candidate parameters, in this order: six corrections of X_MB for each placement, six of X_FT for
+// each target (measurement/frame.h), then the model's internal parameters. B stands on the axis of
+// joint 1 and F on the last one by construction of the model, so what can't be told from a motion
+// of base or tool is found dependent on them.
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "core/geometry/pose.h"
 #include "core/measurement/frame.h"
@@ -19,9 +19,9 @@ namespace truepose {
 
 // What is being found. Frames are poses that corrections are relative to.
 struct Estimate {
-  std::vector<Pose> X_MB;   // a placement each
-  std::vector<Pose> X_FT;   // a target each
-  Eigen::VectorXd lambda;   // internal parameters, m or rad
+  std::vector<Pose> X_MB;  // a placement each
+  std::vector<Pose> X_FT;  // a target each
+  Eigen::VectorXd lambda;  // internal parameters, m or rad
 };
 
 struct Problem {
@@ -38,7 +38,8 @@ struct Problem {
   int CandidateCount() const { return FirstInternal() + model->parameters.size(); }
 };
 
-// Names, groups and roles of the candidates. A label stands in the name only where there are several of its kind.
+// Names, groups and roles of the candidates. A label stands in the name only where there are
+// several of its kind.
 ParameterSet Candidates(const Problem& problem);
 
 // Nominal internal parameters, frames as given or identity.

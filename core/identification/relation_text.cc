@@ -9,7 +9,8 @@
 namespace truepose {
 namespace {
 
-// A coefficient is unit of the dropped one by unit of the kept one; mm where one of the two is a length.
+// A coefficient is unit of the dropped one by unit of the kept one; mm where one of the two is a
+// length.
 std::string Term(const Parameter& dropped, const Parameter& kept, double c) {
   if (dropped.is_angle == kept.is_angle) return absl::StrFormat("%+.6g %s", c, kept.name);
   if (dropped.is_angle) return absl::StrFormat("%+.6g mm/rad %s", 1e3 * c, kept.name);
@@ -42,7 +43,8 @@ std::string RelationText(const NullRelation& relation, const ParameterSet& candi
   if (relation.kept.empty()) return absl::StrCat(dropped.name, " = 0");
   std::vector<std::string> terms = FrameTerms(relation, candidates);
   for (const auto& term : relation.kept) {
-    if (!IsExternal(candidates, term)) terms.push_back(Term(dropped, candidates[term.first], term.second));
+    if (!IsExternal(candidates, term))
+      terms.push_back(Term(dropped, candidates[term.first], term.second));
   }
   return absl::StrCat(dropped.name, " = ", absl::StrJoin(terms, " and "));
 }
@@ -53,15 +55,17 @@ std::string ReasonText(const NullRelation& relation, const ParameterSet& candida
   if (relation.undetermined) {
     return absl::StrCat(name, " is known too weakly from these readings; it stays at nominal");
   }
-  if (relation.kept.empty()) return absl::StrCat(name, " does not show in this measurement ", always);
+  if (relation.kept.empty())
+    return absl::StrCat(name, " does not show in this measurement ", always);
   const std::vector<std::string> frames = FrameTerms(relation, candidates);
-  const bool only_frames =
-      std::all_of(relation.kept.begin(), relation.kept.end(), [&](const auto& t) { return IsExternal(candidates, t); });
+  const bool only_frames = std::all_of(relation.kept.begin(), relation.kept.end(),
+                                       [&](const auto& t) { return IsExternal(candidates, t); });
   if (only_frames) {
     return absl::StrCat(name, " can't be told from ", absl::StrJoin(frames, " and "), " ", always,
                         "; that frame takes it up");
   }
-  return absl::StrCat(name, " can't be told from the parameters that it equals ", always, "; they take it up");
+  return absl::StrCat(name, " can't be told from the parameters that it equals ", always,
+                      "; they take it up");
 }
 
 }  // namespace truepose

@@ -39,7 +39,8 @@ Eigen::Matrix3d AverageBaseRotation(const Readings& readings, const Eigen::Matri
   return NearestRotation(sum);
 }
 
-// p_MT = p_MB + R_MB R_BF p_FT (+ R_MB p_BF) is linear in both positions; the least-norm solution where they overlap.
+// p_MT = p_MB + R_MB R_BF p_FT (+ R_MB p_BF) is linear in both positions; the least-norm solution
+// where they overlap.
 void SolvePositions(const Readings& readings, FramePair* pair) {
   const Eigen::Index k = static_cast<Eigen::Index>(readings.size());
   Eigen::MatrixXd A(3 * k, 6);
@@ -55,7 +56,8 @@ void SolvePositions(const Readings& readings, FramePair* pair) {
   pair->X_FT.p = x.tail<3>();
 }
 
-// Each step can only lower sum |R_MT - R_MB R_BF R_FT|^2; ten bring it near its minimum, least squares does the rest.
+// Each step can only lower sum |R_MT - R_MB R_BF R_FT|^2; ten bring it near its minimum, least
+// squares does the rest.
 FramePair FromToolRotation(const Readings& readings, Eigen::Matrix3d R_FT) {
   FramePair pair;
   for (int i = 0; i < 10; ++i) {
@@ -115,9 +117,11 @@ std::vector<FramePair> StartCandidates(const Readings& readings, const std::opti
     pairs.push_back({BaseFromTool(readings, *X_FT), *X_FT});
     pairs.push_back(FromToolPosition(readings, X_FT->p));
   }
-  for (const Eigen::Vector3d& p_FT : ToolPositions()) pairs.push_back(FromToolPosition(readings, p_FT));
+  for (const Eigen::Vector3d& p_FT : ToolPositions())
+    pairs.push_back(FromToolPosition(readings, p_FT));
   if (!AllPoses(readings)) return pairs;
-  for (const Eigen::Matrix3d& R_FT : CubeRotations()) pairs.push_back(FromToolRotation(readings, R_FT));
+  for (const Eigen::Matrix3d& R_FT : CubeRotations())
+    pairs.push_back(FromToolRotation(readings, R_FT));
   return pairs;
 }
 

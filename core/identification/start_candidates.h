@@ -19,7 +19,8 @@ struct NominalReading {
 };
 
 // All guesses; at least one. @param readings at least one, of one placement and one target.
-std::vector<FramePair> StartCandidates(const std::vector<NominalReading>& readings, const std::optional<Pose>& X_FT);
+std::vector<FramePair> StartCandidates(const std::vector<NominalReading>& readings,
+                                       const std::optional<Pose>& X_FT);
 
 // The base that fits best with a known target, and the target that fits best with a known base.
 Pose BaseFromTool(const std::vector<NominalReading>& readings, const Pose& X_FT);

@@ -20,12 +20,14 @@ constexpr ModelError kStartWeights = {2e-3, 3e-3};
 Problem PairProblem(const Problem& problem, int placement, int target, int most) {
   Problem pair{problem.model, {}, {""}, {""}};
   for (const Reading& reading : problem.readings) {
-    if (reading.placement == placement && reading.target == target) pair.readings.push_back(reading);
+    if (reading.placement == placement && reading.target == target)
+      pair.readings.push_back(reading);
   }
   const int count = static_cast<int>(pair.readings.size());
   if (count > most) {
     std::vector<Reading> spaced;
-    for (int i = 0; i < most; ++i) spaced.push_back(pair.readings[static_cast<size_t>(i) * count / most]);
+    for (int i = 0; i < most; ++i)
+      spaced.push_back(pair.readings[static_cast<size_t>(i) * count / most]);
     pair.readings = std::move(spaced);
   }
   for (Reading& reading : pair.readings) reading.placement = reading.target = 0;
@@ -44,7 +46,8 @@ std::vector<NominalReading> WithNominal(const Problem& problem) {
 double CostOf(const Problem& problem, const Estimate& estimate) {
   double sum = 0;
   for (const Reading& reading : problem.readings) {
-    sum += ResidualAt(problem, reading, estimate).cwiseQuotient(StandardDeviations(reading, kStartWeights))
+    sum += ResidualAt(problem, reading, estimate)
+               .cwiseQuotient(StandardDeviations(reading, kStartWeights))
                .squaredNorm();
   }
   return sum / 2;
@@ -84,12 +87,14 @@ double Refine(const Problem& problem, Estimate* estimate) {
 }
 
 // Both frames of a pair of which nothing is known.
-FramePair SolvePair(const Problem& problem, int placement, int target, const std::optional<Pose>& X_FT) {
+FramePair SolvePair(const Problem& problem, int placement, int target,
+                    const std::optional<Pose>& X_FT) {
   const Problem few = PairProblem(problem, placement, target, kReadingsToTry);
   std::vector<Start> starts = BestStarts(few, X_FT);
   for (Start& start : starts) start.cost = Refine(few, &start.estimate);
   Start& best = *std::min_element(starts.begin(), starts.end(), ByCost);
-  Refine(PairProblem(problem, placement, target, static_cast<int>(problem.readings.size())), &best.estimate);
+  Refine(PairProblem(problem, placement, target, static_cast<int>(problem.readings.size())),
+         &best.estimate);
   return {best.estimate.X_MB[0], best.estimate.X_FT[0]};
 }
 
@@ -97,9 +102,12 @@ FramePair SolvePair(const Problem& problem, int placement, int target, const std
 class Spreader {
  public:
   Spreader(const Problem& problem, const StartOptions& options)
-      : problem_(problem), options_(options), estimate_(NominalEstimate(problem)),
+      : problem_(problem),
+        options_(options),
+        estimate_(NominalEstimate(problem)),
         counts_(problem.placement_count(), std::vector<int>(problem.target_count(), 0)),
-        base_known_(problem.placement_count(), false), tool_known_(problem.target_count(), false) {
+        base_known_(problem.placement_count(), false),
+        tool_known_(problem.target_count(), false) {
     for (const Reading& reading : problem.readings) ++counts_[reading.placement][reading.target];
     for (size_t p = 0; p < options.base_known.size(); ++p) {
       if (options.base_known[p]) estimate_.X_MB[p] = options.known.X_MB[p], base_known_[p] = true;
@@ -109,10 +117,12 @@ class Spreader {
     }
   }
 
-  // Solves the largest pair that touches a known frame, else the largest of all, until all frames are known.
+  // Solves the largest pair that touches a known frame, else the largest of all, until all frames
+  // are known.
   absl::StatusOr<Estimate> Run(const Hooks& hooks) {
     while (std::count(base_known_.begin(), base_known_.end(), false) +
-               std::count(tool_known_.begin(), tool_known_.end(), false) > 0) {
+               std::count(tool_known_.begin(), tool_known_.end(), false) >
+           0) {
       if (hooks.Cancelled()) return absl::CancelledError("cancelled");
       const auto [placement, target] = NextPair();
       if (placement < 0) return Unseen();
@@ -153,10 +163,14 @@ class Spreader {
   absl::Status Unseen() const {
     FaultList faults;
     for (int p = 0; p < problem_.placement_count(); ++p) {
-      if (!base_known_[p]) faults.Add(absl::StrCat("placement '", problem_.placements[p], "'"), "no usable reading", "at least one");
+      if (!base_known_[p])
+        faults.Add(absl::StrCat("placement '", problem_.placements[p], "'"), "no usable reading",
+                   "at least one");
     }
     for (int t = 0; t < problem_.target_count(); ++t) {
-      if (!tool_known_[t]) faults.Add(absl::StrCat("target '", problem_.targets[t], "'"), "no usable reading", "at least one");
+      if (!tool_known_[t])
+        faults.Add(absl::StrCat("target '", problem_.targets[t], "'"), "no usable reading",
+                   "at least one");
     }
     return faults.ToStatus(absl::StatusCode::kFailedPrecondition);
   }
@@ -170,7 +184,8 @@ class Spreader {
 
 }  // namespace
 
-absl::StatusOr<Estimate> FindStart(const Problem& problem, const StartOptions& options, const Hooks& hooks) {
+absl::StatusOr<Estimate> FindStart(const Problem& problem, const StartOptions& options,
+                                   const Hooks& hooks) {
   return Spreader(problem, options).Run(hooks);
 }
 

@@ -1,10 +1,13 @@
-// Where the instrument and the target stand, found from the readings and the nominal robot, from any placement.
+// Where the instrument and the target stand, found from the readings and the nominal robot, from
+// any placement.
 //
-// One linear start alone ends in a wrong minimum on some real sessions (nearly constant tool orientation), so many are
-// tried: for each of a set of target positions on the flange, the base by aligning points (Kabsch) and the target's
-// orientation by averaging; and from each of the 24 axis-parallel target orientations, alternating averages of both
-// orientations, then both positions linearly. The best are refined by least squares over base and tool, on at most 60
-// readings, and the one with the least cost is refined on all. Further placements and targets follow from those known.
+// One linear start alone ends in a wrong minimum on some real sessions (nearly constant tool
+// orientation), so many are tried: for each of a set of target positions on the flange, the base by
+// aligning points (Kabsch) and the target's orientation by averaging; and from each of the 24
+// axis-parallel target orientations, alternating averages of both orientations, then both positions
+// linearly. The best are refined by least squares over base and tool, on at most 60 readings, and
+// the one with the least cost is refined on all. Further placements and targets follow from those
+// known.
 #pragma once
 
 #include <optional>
@@ -24,6 +27,7 @@ struct StartOptions {
 
 // @returns base and tool frames at the least cost found, lambda zero.
 //   kCancelled; kFailedPrecondition when a placement or target has no reading.
-absl::StatusOr<Estimate> FindStart(const Problem& problem, const StartOptions& options, const Hooks& hooks);
+absl::StatusOr<Estimate> FindStart(const Problem& problem, const StartOptions& options,
+                                   const Hooks& hooks);
 
 }  // namespace truepose

@@ -1,9 +1,8 @@
 #include "core/identification/weights.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-
-#include <Eigen/Cholesky>
 
 #include "core/identification/prediction.h"
 
@@ -19,15 +18,17 @@ int RowCount(const Problem& problem) {
   return rows;
 }
 
-void FillReading(const Problem& problem, const Reading& reading, int row, const Residual& r, const Residual& sd,
-                 const ReadingJacobian& J, WhitenedSystem* system) {
+void FillReading(const Problem& problem, const Reading& reading, int row, const Residual& r,
+                 const Residual& sd, const ReadingJacobian& J, WhitenedSystem* system) {
   const Eigen::Index rows = r.size();
   const auto weight = sd.cwiseInverse().asDiagonal();
   system->r.segment(row, rows) = r;
   system->sd.segment(row, rows) = sd;
   for (Eigen::Index i = 0; i < rows; ++i) system->rotation[row + i] = i >= 3;
-  system->J.block(row, problem.FirstOfBase(reading.placement), rows, kFrameParameters) = weight * J.base;
-  system->J.block(row, problem.FirstOfTool(reading.target), rows, kFrameParameters) = weight * J.tool;
+  system->J.block(row, problem.FirstOfBase(reading.placement), rows, kFrameParameters) =
+      weight * J.base;
+  system->J.block(row, problem.FirstOfTool(reading.target), rows, kFrameParameters) =
+      weight * J.tool;
   system->J.block(row, problem.FirstInternal(), rows, J.internal.cols()) = weight * J.internal;
 }
 
@@ -45,7 +46,8 @@ double WeightedSum(const GroupRows& rows, double variance) {
   return sum;
 }
 
-// The variance at which the weighted sum is the redundancy, by bisection of its logarithm (the sum falls with it).
+// The variance at which the weighted sum is the redundancy, by bisection of its logarithm (the sum
+// falls with it).
 double SolveVariance(const GroupRows& rows, double floor) {
   double low = floor * floor, high = low;
   for (double r2 : rows.squared_residual) high = std::max(high, r2);
@@ -63,13 +65,14 @@ GroupRows CollectGroup(const WhitenedSystem& system, bool rotation, double model
   for (Eigen::Index i = 0; i < system.r.size(); ++i) {
     if (system.rotation[i] != rotation) continue;
     rows.squared_residual.push_back(system.r(i) * system.r(i));
-    rows.stated_variance.push_back(std::max(0.0, system.sd(i) * system.sd(i) - model_sd * model_sd));
+    rows.stated_variance.push_back(
+        std::max(0.0, system.sd(i) * system.sd(i) - model_sd * model_sd));
   }
   return rows;
 }
 
-// trace((J'J)^-1 J_g'J_g): the parameters' share of the group. Columns are scaled, so the condition is that of the
-// directions and not of the units.
+// trace((J'J)^-1 J_g'J_g): the parameters' share of the group. Columns are scaled, so the condition
+// is that of the directions and not of the units.
 double ShareOfGroup(const WhitenedSystem& system, const std::vector<int>& active, bool rotation) {
   Eigen::MatrixXd J = system.J(Eigen::all, active);
   for (Eigen::Index i = 0; i < J.cols(); ++i) J.col(i) /= std::max(J.col(i).norm(), 1e-300);
@@ -90,7 +93,8 @@ Residual StandardDeviations(const Reading& reading, const ModelError& model_erro
   return sd;
 }
 
-WhitenedSystem Whitened(const Problem& problem, const Estimate& estimate, const ModelError& model_error) {
+WhitenedSystem Whitened(const Problem& problem, const Estimate& estimate,
+                        const ModelError& model_error) {
   const int rows = RowCount(problem);
   WhitenedSystem system{Eigen::VectorXd(rows), Eigen::VectorXd(rows), std::vector<bool>(rows),
                         Eigen::MatrixXd::Zero(rows, problem.CandidateCount())};
@@ -100,16 +104,17 @@ WhitenedSystem Whitened(const Problem& problem, const Estimate& estimate, const 
   ReadingJacobian J;
   int row = 0;
   for (const Reading& reading : problem.readings) {
-    EvaluateReading(*problem.model, reading, estimate.X_MB[reading.placement], estimate.X_FT[reading.target], zero,
-                    zero, estimate.lambda.data(), &workspace, &r, &J);
+    EvaluateReading(*problem.model, reading, estimate.X_MB[reading.placement],
+                    estimate.X_FT[reading.target], zero, zero, estimate.lambda.data(), &workspace,
+                    &r, &J);
     FillReading(problem, reading, row, r, StandardDeviations(reading, model_error), J, &system);
     row += static_cast<int>(r.size());
   }
   return system;
 }
 
-ModelError EstimateModelError(const Problem& problem, const Estimate& estimate, const std::vector<int>& active,
-                              const ModelError& current) {
+ModelError EstimateModelError(const Problem& problem, const Estimate& estimate,
+                              const std::vector<int>& active, const ModelError& current) {
   const WhitenedSystem system = Whitened(problem, estimate, current);
   GroupRows position = CollectGroup(system, false, current.position_sd_m);
   GroupRows rotation = CollectGroup(system, true, current.rotation_sd_rad);

@@ -34,7 +34,8 @@ Pose Corrected(const Pose& X, const double* d, FrameJacobian* J) {
 
 Parameter FrameParameter(ParameterGroup group, std::string_view label, int index) {
   const std::string frame = group == ParameterGroup::kBase ? "base" : "tool";
-  const std::string owner = label.empty() ? frame : absl::StrCat(frame, "[", std::string(label), "]");
+  const std::string owner =
+      label.empty() ? frame : absl::StrCat(frame, "[", std::string(label), "]");
   return {absl::StrCat(owner, ".", kNames[index]), group, ParameterRole::kExternal, index >= 3};
 }
 

@@ -6,7 +6,8 @@
 namespace truepose {
 namespace {
 
-void PositionResidual(const Reading& reading, const Pose& X_MT, Residual* r, ResidualByTwist* D, int rows) {
+void PositionResidual(const Reading& reading, const Pose& X_MT, Residual* r, ResidualByTwist* D,
+                      int rows) {
   r->resize(rows);
   r->head<3>() = reading.X_MT.p - X_MT.p;
   if (D == nullptr) return;
@@ -36,7 +37,8 @@ Eigen::Matrix<double, 2, 3> PerpendicularRows(const Eigen::Vector3d& a) {
   return rows;
 }
 
-// angle / sin(angle) as a function of c = cos(angle), and its derivative by c; by series where they are 0 / 0.
+// angle / sin(angle) as a function of c = cos(angle), and its derivative by c; by series where they
+// are 0 / 0.
 struct AngleOverSine {
   double value, derivative;
 };
@@ -47,7 +49,8 @@ AngleOverSine AngleOverSineOf(double c, double s) {
   return {value, (c * value - 1) / std::max(s * s, 1e-24)};
 }
 
-// Rotation vector f(c) (a x m) from predicted axis a to measured axis m, with c = a . m and da = w x a.
+// Rotation vector f(c) (a x m) from predicted axis a to measured axis m, with c = a . m and da = w
+// x a.
 void EvaluatePointAxis(const Reading& reading, const Pose& X_MT, Residual* r, ResidualByTwist* D) {
   PositionResidual(reading, X_MT, r, D, 5);
   const Eigen::Vector3d m = reading.axis_M, a = X_MT.R.col(2), cross = a.cross(m);

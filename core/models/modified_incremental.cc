@@ -12,7 +12,8 @@ constexpr double kQuarterTurn = std::numbers::pi / 2;
 // Builds the chain from base to flange; `link_` counts the links behind the last joint.
 class Builder {
  public:
-  Builder(const Robot& robot, ModelExtent extent, Model* model) : robot_(robot), extent_(extent), model_(*model) {}
+  Builder(const Robot& robot, ModelExtent extent, Model* model)
+      : robot_(robot), extent_(extent), model_(*model) {}
 
   void Run() {
     for (const ElementaryTransform& element : robot_.chain()) {
@@ -31,7 +32,8 @@ class Builder {
     TurnZTo(axis, +1);
     if (element.joint > 0 || extent_ == ModelExtent::kComplete) AppendAxisErrors(element.joint);
     element.axis = Axis::kZ;
-    element.parameter = Add("dq", element.joint + 1, ParameterRole::kJointOffset, element.motion == Motion::kRotation);
+    element.parameter = Add("dq", element.joint + 1, ParameterRole::kJointOffset,
+                            element.motion == Motion::kRotation);
     model_.chain.push_back(element);
     TurnZTo(axis, -1);
   }
@@ -64,12 +66,14 @@ class Builder {
 
   void AppendError(const std::string& stem, int link, Motion motion, Axis axis) {
     const bool angle = motion == Motion::kRotation;
-    const int parameter = Add(stem, link, angle ? ParameterRole::kAngle : ParameterRole::kLength, angle);
+    const int parameter =
+        Add(stem, link, angle ? ParameterRole::kAngle : ParameterRole::kLength, angle);
     model_.chain.push_back({motion, axis, 0.0, -1, parameter});
   }
 
   int Add(const std::string& stem, int link, ParameterRole role, bool is_angle) {
-    return model_.parameters.Add({absl::StrCat(stem, link), ParameterGroup::kInternal, role, is_angle});
+    return model_.parameters.Add(
+        {absl::StrCat(stem, link), ParameterGroup::kInternal, role, is_angle});
   }
 
   const Robot& robot_;
@@ -82,7 +86,8 @@ class Builder {
 Model ModifiedIncremental(const Robot& robot, ModelExtent extent) {
   Model model;
   model.kind = "modified_incremental";
-  model.convention = "modified_incremental/1: B = Rx(dalpha) Ry(dbeta) Tx(da) Ty(db), D = Rz|Tz(dq)";
+  model.convention =
+      "modified_incremental/1: B = Rx(dalpha) Ry(dbeta) Tx(da) Ty(db), D = Rz|Tz(dq)";
   Builder(robot, extent, &model).Run();
   return model;
 }

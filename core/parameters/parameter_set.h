@@ -1,5 +1,5 @@
-// The only place where an index means a name. Parameters are errors of the nominal geometry (Delta Lambda, Eq. 2):
-// their nominal value is 0, their identified value the correction, rad or m.
+// The only place where an index means a name. Parameters are errors of the nominal geometry (Delta
+// Lambda, Eq. 2): their nominal value is 0, their identified value the correction, rad or m.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,8 @@ namespace truepose {
 
 enum class ParameterGroup { kBase, kTool, kInternal };
 
-// What the parameter is to its joint; also the order in which parameters are preferred (see identifiability.h).
+// What the parameter is to its joint; also the order in which parameters are preferred (see
+// identifiability.h).
 enum class ParameterRole { kExternal, kJointOffset, kLength, kAngle };
 
 struct Parameter {

@@ -12,7 +12,8 @@ struct DhRow {
   double theta = 0, d = 0, a = 0, alpha = 0;
 };
 
-// A_i = R(z, theta_i) T(z, d_i) T(x, a_i) R(x, alpha_i), Eq. 15; joint i moves theta_i (revolute) or d_i (prismatic).
+// A_i = R(z, theta_i) T(z, d_i) T(x, a_i) R(x, alpha_i), Eq. 15; joint i moves theta_i (revolute)
+// or d_i (prismatic).
 // @param types one per row. The chain has four elements a row.
 Chain ChainFromStandardDh(const std::vector<DhRow>& rows, const std::vector<JointType>& types);
 

@@ -1,9 +1,8 @@
 #include "core/robot/robot.h"
 
+#include <Eigen/LU>
 #include <cmath>
 #include <utility>
-
-#include <Eigen/LU>
 
 #include "absl/strings/str_cat.h"
 #include "core/base/fault.h"
@@ -26,10 +25,11 @@ void CheckJoints(const std::vector<Joint>& joints, FaultList* faults) {
   }
 }
 
-void CheckElement(const ElementaryTransform& element, const std::vector<Joint>& joints, size_t index, int* next,
-                  FaultList* faults) {
+void CheckElement(const ElementaryTransform& element, const std::vector<Joint>& joints,
+                  size_t index, int* next, FaultList* faults) {
   const std::string field = absl::StrCat("geometry.chain.elements[", index, "]");
-  if (!std::isfinite(element.constant)) faults->Add(field, absl::StrCat(element.constant), "a finite number");
+  if (!std::isfinite(element.constant))
+    faults->Add(field, absl::StrCat(element.constant), "a finite number");
   if (element.joint < 0) return;
   if (element.joint != *next) {
     faults->Add(field, absl::StrCat("joint ", element.joint + 1),
@@ -48,7 +48,8 @@ void CheckChain(const Chain& chain, const std::vector<Joint>& joints, FaultList*
   int next = 0;
   for (size_t i = 0; i < chain.size(); ++i) CheckElement(chain[i], joints, i, &next, faults);
   if (next != static_cast<int>(joints.size())) {
-    faults->Add("geometry", absl::StrCat(next, " joint motions"), absl::StrCat(joints.size(), ", one for each joint"));
+    faults->Add("geometry", absl::StrCat(next, " joint motions"),
+                absl::StrCat(joints.size(), ", one for each joint"));
   }
 }
 
@@ -56,8 +57,10 @@ void CheckMap(const JointMap& map, int joints, FaultList* faults) {
   if (map.scale.rows() != joints || map.scale.cols() != joints) {
     faults->Add("joint_map.scale", absl::StrCat(map.scale.rows(), " x ", map.scale.cols()),
                 absl::StrCat(joints, " x ", joints));
-  } else if (!map.scale.allFinite() || !Eigen::FullPivLU<Eigen::MatrixXd>(map.scale).isInvertible()) {
-    faults->Add("joint_map.scale", "a matrix that can't be inverted", "an invertible matrix of finite numbers");
+  } else if (!map.scale.allFinite() ||
+             !Eigen::FullPivLU<Eigen::MatrixXd>(map.scale).isInvertible()) {
+    faults->Add("joint_map.scale", "a matrix that can't be inverted",
+                "an invertible matrix of finite numbers");
   }
   if (map.offset.size() != joints || !map.offset.allFinite()) {
     faults->Add("joint_map.offset", absl::StrCat(map.offset.size(), " values"),
@@ -65,18 +68,24 @@ void CheckMap(const JointMap& map, int joints, FaultList* faults) {
   }
 }
 
-// Axes in B with all joints at zero: only rotations between two prismatic joints decide, and there are none that move.
-void CheckParallelPrismatic(const Chain& chain, const std::vector<Joint>& joints, FaultList* faults) {
+// Axes in B with all joints at zero: only rotations between two prismatic joints decide, and there
+// are none that move.
+void CheckParallelPrismatic(const Chain& chain, const std::vector<Joint>& joints,
+                            FaultList* faults) {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(joints.size());
   Sweep sweep;
   RunSweep(chain, zero.data(), nullptr, &sweep);
   for (size_t i = 1; i < joints.size(); ++i) {
-    if (joints[i - 1].type != JointType::kPrismatic || joints[i].type != JointType::kPrismatic) continue;
-    const Eigen::Vector3d a = sweep.J_joints.col(i - 1).head<3>(), b = sweep.J_joints.col(i).head<3>();
+    if (joints[i - 1].type != JointType::kPrismatic || joints[i].type != JointType::kPrismatic)
+      continue;
+    const Eigen::Vector3d a = sweep.J_joints.col(i - 1).head<3>(),
+                          b = sweep.J_joints.col(i).head<3>();
     if (a.cross(b).norm() > kParallel) continue;
-    faults->Add(absl::StrCat("joints[", i, "]"),
-                absl::StrCat("prismatic joint ", joints[i].name, " parallel to prismatic joint ", joints[i - 1].name),
-                "consecutive prismatic joints that are not parallel: parallel ones can't be told apart");
+    faults->Add(
+        absl::StrCat("joints[", i, "]"),
+        absl::StrCat("prismatic joint ", joints[i].name, " parallel to prismatic joint ",
+                     joints[i - 1].name),
+        "consecutive prismatic joints that are not parallel: parallel ones can't be told apart");
   }
 }
 

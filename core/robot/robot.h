@@ -1,11 +1,11 @@
-// A robot as its controller believes it to be: joints, their limits, and the nominal chain from base B to flange F.
+// A robot as its controller believes it to be: joints, their limits, and the nominal chain from
+// base B to flange F.
 #pragma once
 
+#include <Eigen/Core>
 #include <limits>
 #include <string>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "absl/status/statusor.h"
 #include "core/chain/chain.h"
@@ -14,7 +14,8 @@ namespace truepose {
 
 enum class JointType { kRevolute, kPrismatic };
 
-// One controller joint. Limits are of the controller's reading, rad or m; infinite where none is known.
+// One controller joint. Limits are of the controller's reading, rad or m; infinite where none is
+// known.
 struct Joint {
   std::string name;
   JointType type = JointType::kRevolute;
@@ -28,18 +29,23 @@ struct JointMap {
   Eigen::VectorXd offset;  // n; rad or m
 
   static JointMap Identity(int joints);
-  Eigen::VectorXd ToChain(const Eigen::VectorXd& q_controller) const { return scale * q_controller + offset; }
+  Eigen::VectorXd ToChain(const Eigen::VectorXd& q_controller) const {
+    return scale * q_controller + offset;
+  }
   Eigen::VectorXd ToController(const Eigen::VectorXd& q_chain) const;
 };
 
 // Frozen by Create.
 class Robot {
  public:
-  // @param chain nominal elements from B to F, without parameters, each joint 0..n-1 in exactly one element and in
+  // @param chain nominal elements from B to F, without parameters, each joint 0..n-1 in exactly one
+  // element and in
   //   ascending order; a revolute joint moves a rotation, a prismatic one a translation.
-  // @returns kInvalidArgument with every fault: a joint count that does not match, a joint that is missing, repeated
-  //   or of the wrong kind, a map of the wrong size or not invertible, values that are not finite, limits in the
-  //   wrong order, two consecutive prismatic joints that are parallel (they are one joint twice, chapter-notes 7).
+  // @returns kInvalidArgument with every fault: a joint count that does not match, a joint that is
+  // missing, repeated
+  //   or of the wrong kind, a map of the wrong size or not invertible, values that are not finite,
+  //   limits in the wrong order, two consecutive prismatic joints that are parallel (they are one
+  //   joint twice, chapter-notes 7).
   static absl::StatusOr<Robot> Create(std::vector<Joint> joints, Chain chain, JointMap map);
 
   int joint_count() const { return static_cast<int>(joints_.size()); }

@@ -31,8 +31,10 @@ Eigen::VectorXd DrawJoints(const Robot& robot, const SimulateOptions& options, R
   Eigen::VectorXd q = robot.MiddleOfLimits();
   for (int i = 0; i < robot.joint_count(); ++i) {
     const Joint& joint = robot.joints()[i];
-    const double range = joint.type == JointType::kRevolute ? options.joint_range_rad : options.prismatic_range_m;
-    q(i) = random->Uniform(std::max(joint.lower, q(i) - range), std::min(joint.upper, q(i) + range));
+    const double range =
+        joint.type == JointType::kRevolute ? options.joint_range_rad : options.prismatic_range_m;
+    q(i) =
+        random->Uniform(std::max(joint.lower, q(i) - range), std::min(joint.upper, q(i) + range));
   }
   return q;
 }
@@ -51,7 +53,8 @@ double Read(double q, const SimulateOptions& options, Random* random) {
 
 }  // namespace
 
-SimulatedSession Simulate(const Robot& robot, const Model& model, const Pose& X_FT, const SimulateOptions& options) {
+SimulatedSession Simulate(const Robot& robot, const Model& model, const Pose& X_FT,
+                          const SimulateOptions& options) {
   Random random(options.seed);
   SimulatedSession session;
   session.lambda = DrawErrors(model, options, &random);

@@ -1,4 +1,5 @@
-// Sessions of a robot whose errors are known: for demonstrations, tests and trying out a measurement plan.
+// Sessions of a robot whose errors are known: for demonstrations, tests and trying out a
+// measurement plan.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +19,10 @@ struct SimulateOptions {
   double position_noise_sd_m = 5e-5;    // per axis of M
   double rotation_noise_sd_rad = 1e-4;  // per axis of M
   double joint_noise_sd = 0;            // rad or m, on controller readings
-  double encoder_resolution = 0;        // rad or m; readings are rounded to multiples of it, 0 = not at all
-  double joint_range_rad = 1.5;         // joints are drawn uniformly within +- this of the middle of their limits
+  double encoder_resolution =
+      0;  // rad or m; readings are rounded to multiples of it, 0 = not at all
+  double joint_range_rad =
+      1.5;  // joints are drawn uniformly within +- this of the middle of their limits
   double prismatic_range_m = 0.3;
 };
 
@@ -34,8 +37,10 @@ struct SimulatedSession {
   Pose X_MB, X_FT;         // true frames
 };
 
-// @param model of extent kInternal. Draws errors, frames, then poses, in this order, so that a change of noise leaves
+// @param model of extent kInternal. Draws errors, frames, then poses, in this order, so that a
+// change of noise leaves
 //   the robot as it is. @param X_FT target on the flange.
-SimulatedSession Simulate(const Robot& robot, const Model& model, const Pose& X_FT, const SimulateOptions& options);
+SimulatedSession Simulate(const Robot& robot, const Model& model, const Pose& X_FT,
+                          const SimulateOptions& options);
 
 }  // namespace truepose

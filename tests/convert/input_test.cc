@@ -33,8 +33,8 @@ TEST(Nominal, AllFaultsAtOnce) {
   nominal.mutable_joint_map()->add_scale(1);
   nominal.mutable_tools(0)->mutable_pose()->set_qw(2);
   EXPECT_THAT(Fields(ValidateNominal(nominal)),
-              ElementsAre("joints[1].name", "joints[2].type", "geometry.standard_dh.rows[3].a_m", "joint_map.scale",
-                          "tools[0].pose"));
+              ElementsAre("joints[1].name", "joints[2].type", "geometry.standard_dh.rows[3].a_m",
+                          "joint_map.scale", "tools[0].pose"));
 }
 
 TEST(Nominal, RowsAndJoints) {
@@ -64,8 +64,8 @@ TEST(Nominal, ElementsOfAChain) {
   element->set_joint(-2);
   nominal.mutable_geometry()->add_flange()->set_joint(0);
   EXPECT_THAT(Fields(ValidateNominal(nominal)),
-              ElementsAre("geometry.chain.elements[0]", "geometry.chain.elements[0].joint", "geometry.flange[0]",
-                          "geometry.flange[0].joint"));
+              ElementsAre("geometry.chain.elements[0]", "geometry.chain.elements[0].joint",
+                          "geometry.flange[0]", "geometry.flange[0].joint"));
 }
 
 TEST(Readings, AllFaultsAtOnce) {
@@ -79,9 +79,11 @@ TEST(Readings, AllFaultsAtOnce) {
   (*readings)[5].mutable_axis()->set_z(2);
   const absl::Status status = RunCalibration(input).status();
   EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
-  EXPECT_THAT(Fields(status), ElementsAre("sessions[0].readings[0].joints_measured", "sessions[0].readings[1].joints_measured[3]",
-                                          "sessions[0].readings[2].orientation", "sessions[0].readings[3].row",
-                                          "sessions[0].readings[4].position_sd_m", "sessions[0].readings[5].axis"));
+  EXPECT_THAT(Fields(status),
+              ElementsAre("sessions[0].readings[0].joints_measured",
+                          "sessions[0].readings[1].joints_measured[3]",
+                          "sessions[0].readings[2].orientation", "sessions[0].readings[3].row",
+                          "sessions[0].readings[4].position_sd_m", "sessions[0].readings[5].axis"));
 }
 
 TEST(Options, AllFaultsAtOnce) {
@@ -90,8 +92,9 @@ TEST(Options, AllFaultsAtOnce) {
   input.mutable_options()->set_model("magic");
   input.mutable_options()->set_estimator("oracle");
   input.mutable_options()->set_observe(static_cast<v1::Observe>(9));
-  EXPECT_THAT(Fields(RunCalibration(input).status()),
-              ElementsAre("options.split", "options.model", "options.estimator", "options.observe"));
+  EXPECT_THAT(
+      Fields(RunCalibration(input).status()),
+      ElementsAre("options.split", "options.model", "options.estimator", "options.observe"));
 }
 
 TEST(Options, UnknownColumnsAndTools) {
@@ -123,14 +126,16 @@ TEST(Limits, WarningOrError) {
   input.mutable_sessions(0)->mutable_readings(9)->set_joints_measured(2, 3.5);
   const auto calibration = RunCalibration(input);
   ASSERT_TRUE(calibration.ok()) << calibration.status();
-  EXPECT_THAT(calibration->report().warnings(), ElementsAre("joint joint3 is above its limit of 171.887 deg in rows 7, 9"));
+  EXPECT_THAT(calibration->report().warnings(),
+              ElementsAre("joint joint3 is above its limit of 171.887 deg in rows 7, 9"));
   input.mutable_options()->set_strict_limits(true);
   EXPECT_THAT(Fields(RunCalibration(input).status()), ElementsAre("sessions[0].readings"));
 }
 
 TEST(Limits, ManyRowsAreCut) {
   v1::CalibrationInput input = SampleInput(60);
-  for (v1::Reading& reading : *input.mutable_sessions(0)->mutable_readings()) reading.set_joints_measured(0, -3.5);
+  for (v1::Reading& reading : *input.mutable_sessions(0)->mutable_readings())
+    reading.set_joints_measured(0, -3.5);
   const auto& readings = input.sessions(0).readings();
   const auto warnings = LimitWarnings(input.nominal(), {readings.begin(), readings.end()});
   ASSERT_EQ(warnings.size(), 1u);

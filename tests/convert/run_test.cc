@@ -41,7 +41,8 @@ TEST(RunCalibration, ReportIsWhole) {
   EXPECT_TRUE(calibration.residuals(1).control());
   EXPECT_EQ(calibration.digest().size(), 64u);
   EXPECT_NE(report.sets().control().digest(), report.sets().calibration().digest());
-  for (const v1::Redundancy& redundancy : report.redundancies()) EXPECT_FALSE(redundancy.reason().empty());
+  for (const v1::Redundancy& redundancy : report.redundancies())
+    EXPECT_FALSE(redundancy.reason().empty());
   double squares = 0;
   for (const v1::RowResidual& residual : calibration.residuals()) {
     if (residual.control()) squares += residual.after_position_mm() * residual.after_position_mm();
@@ -88,7 +89,8 @@ TEST(RunCalibration, ObserveTakesPartOfAReading) {
   EXPECT_EQ(MustRun(input).report().parameters().identified(), 29);
 }
 
-// Rows without the observed quantity are not used, are named, and keep their place in the count of the split.
+// Rows without the observed quantity are not used, are named, and keep their place in the count of
+// the split.
 TEST(RunCalibration, UnusableRowsKeepTheirPlace) {
   v1::CalibrationInput input = SampleInput(60);
   input.mutable_sessions(0)->mutable_readings(4)->clear_position_m();
@@ -98,7 +100,8 @@ TEST(RunCalibration, UnusableRowsKeepTheirPlace) {
   EXPECT_EQ(calibration.report().sets().control().poses(), 29);
   ASSERT_EQ(calibration.report().warnings_size(), 1);
   EXPECT_THAT(calibration.report().warnings(0), HasSubstr("rows 4, 7"));
-  for (const v1::RowResidual& residual : calibration.residuals()) EXPECT_EQ(residual.control(), residual.row() % 2 == 1);
+  for (const v1::RowResidual& residual : calibration.residuals())
+    EXPECT_EQ(residual.control(), residual.row() % 2 == 1);
 }
 
 TEST(RunCalibration, CommandedWhereNotMeasured) {
@@ -112,7 +115,8 @@ TEST(RunCalibration, CommandedWhereNotMeasured) {
   EXPECT_EQ(MustRun(input).report().joints_used(), "measured (1 rows), commanded (59 rows)");
 }
 
-// Two sessions of one robot with their own set-ups: a base and a tool each, internal parameters in common.
+// Two sessions of one robot with their own set-ups: a base and a tool each, internal parameters in
+// common.
 TEST(RunCalibration, SessionsHaveTheirOwnFrames) {
   v1::CalibrationInput input = SampleInput(60);
   *input.add_sessions() = input.sessions(0);
@@ -127,7 +131,8 @@ TEST(RunCalibration, SessionsHaveTheirOwnFrames) {
   for (auto& session : *input.mutable_sessions()) {
     for (v1::Reading& reading : *session.mutable_readings()) reading.set_target("ball");
   }
-  EXPECT_EQ(MustRun(input).report().parameters().identified(), 18 + 12 + 6) << "a named target is one for all sessions";
+  EXPECT_EQ(MustRun(input).report().parameters().identified(), 18 + 12 + 6)
+      << "a named target is one for all sessions";
 }
 
 TEST(RunCalibration, GroupsAndColumns) {
@@ -141,10 +146,12 @@ TEST(RunCalibration, GroupsAndColumns) {
   input.mutable_options()->set_split("even-odd");
   input.mutable_options()->set_group_column("group");
   const v1::Calibration grouped = MustRun(input);
-  for (const v1::RowResidual& residual : grouped.residuals()) EXPECT_EQ(residual.control(), residual.row() / 10 % 2 == 1);
+  for (const v1::RowResidual& residual : grouped.residuals())
+    EXPECT_EQ(residual.control(), residual.row() / 10 % 2 == 1);
 }
 
-// A calibration brought to the shop floor: the compensated robot is exact where the uncompensated one is off.
+// A calibration brought to the shop floor: the compensated robot is exact where the uncompensated
+// one is off.
 TEST(RunCompensation, JointTargetsAndPoseTargetsAgree) {
   const v1::CalibrationInput input = SampleInput(100);
   const v1::Calibration calibration = MustRun(input);
@@ -160,7 +167,8 @@ TEST(RunCompensation, JointTargetsAndPoseTargetsAgree) {
   EXPECT_LT(first.residual_position_mm(), 1e-9);
   // The pose that the uncalibrated controller would have been asked for gives the same joints.
   v1::Calibration none = calibration;
-  for (v1::InternalParameter& parameter : *none.mutable_internal_parameters()) parameter.set_value(0);
+  for (v1::InternalParameter& parameter : *none.mutable_internal_parameters())
+    parameter.set_value(0);
   const auto desired = RunCompensation(input.nominal(), none, request);
   ASSERT_TRUE(desired.ok());
   EXPECT_EQ(desired->targets(0).position_correction_mm(), 0);
@@ -200,13 +208,18 @@ TEST(RunCompensation, FaultsOfTheRequest) {
   request.add_targets()->add_joints(1);
   request.add_targets()->mutable_pose()->set_x_m(NAN);
   std::vector<std::string> fields;
-  for (const Fault& fault : FaultsOf(RunCompensation(input.nominal(), calibration, request).status())) fields.push_back(fault.field);
-  EXPECT_THAT(fields, ElementsAre("targets[0]", "targets[1].joints", "targets[2].pose.x_m", "targets[2].pose"));
+  for (const Fault& fault :
+       FaultsOf(RunCompensation(input.nominal(), calibration, request).status()))
+    fields.push_back(fault.field);
+  EXPECT_THAT(fields, ElementsAre("targets[0]", "targets[1].joints", "targets[2].pose.x_m",
+                                  "targets[2].pose"));
   calibration.mutable_internal_parameters(0)->set_name("elsewhere");
   calibration.mutable_report()->set_convention("older");
   fields.clear();
-  for (const Fault& fault : FaultsOf(RunCompensation(input.nominal(), calibration, {}).status())) fields.push_back(fault.field);
-  EXPECT_THAT(fields, ElementsAre("calibration.report.convention", "calibration.internal_parameters[0].name"));
+  for (const Fault& fault : FaultsOf(RunCompensation(input.nominal(), calibration, {}).status()))
+    fields.push_back(fault.field);
+  EXPECT_THAT(fields, ElementsAre("calibration.report.convention",
+                                  "calibration.internal_parameters[0].name"));
 }
 
 TEST(RunEvaluation, SameRobotAnotherSession) {
@@ -214,23 +227,27 @@ TEST(RunEvaluation, SameRobotAnotherSession) {
   const v1::Calibration calibration = MustRun(input);
   v1::SessionInput other = input.sessions(0);
   other.mutable_session()->set_name("sessions/other");
-  for (v1::Reading& reading : *other.mutable_readings()) reading.mutable_position_m()->set_z(reading.position_m().z() - 1);
-  const auto evaluation = RunEvaluation(input.nominal(), calibration, other, v1::OBSERVE_UNSPECIFIED);
+  for (v1::Reading& reading : *other.mutable_readings())
+    reading.mutable_position_m()->set_z(reading.position_m().z() - 1);
+  const auto evaluation =
+      RunEvaluation(input.nominal(), calibration, other, v1::OBSERVE_UNSPECIFIED);
   ASSERT_TRUE(evaluation.ok()) << evaluation.status();
   EXPECT_EQ(evaluation->session(), "sessions/other");
   EXPECT_EQ(evaluation->set().poses(), 100);
-  EXPECT_LT(evaluation->set().after().position_mm().rms(), evaluation->set().before().position_mm().rms() / 3);
+  EXPECT_LT(evaluation->set().after().position_mm().rms(),
+            evaluation->set().before().position_mm().rms() / 3);
   EXPECT_EQ(evaluation->residuals_size(), 100);
   EXPECT_EQ(evaluation->frames(0).fitted_on(), "its own rows");
 }
 
-// The simulated truth explains the simulated readings: identified values are within some deviations of it in every
-// direction that is identifiable. A simulation of another robot would be far off.
+// The simulated truth explains the simulated readings: identified values are within some deviations
+// of it in every direction that is identifiable. A simulation of another robot would be far off.
 TEST(RunSimulation, TruthExplainsTheReadings) {
   const v1::CalibrationInput input = SampleInput(200, "");
   const v1::Calibration calibration = MustRun(input);
   EXPECT_LT(calibration.report().sets().complete().after().position_mm().rms(), 0.1);
-  EXPECT_NEAR(calibration.report().summary().model_sd_position_mm(), 0, 0.02) << "the stated noise explains the residuals";
+  EXPECT_NEAR(calibration.report().summary().model_sd_position_mm(), 0, 0.02)
+      << "the stated noise explains the residuals";
   SimulationOptions bad;
   bad.poses = 0;
   bad.joint_noise_sd = -1;

@@ -1,5 +1,6 @@
-// The common simulated problems: a right estimator reaches these figures, a nearly right one does not. Would catch a
-// residual at the wrong point, wrong weights, a start value in another minimum, a missing parameter.
+// The common simulated problems: a right estimator reaches these figures, a nearly right one does
+// not. Would catch a residual at the wrong point, wrong weights, a start value in another minimum,
+// a missing parameter.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,7 +32,8 @@ struct HeldOut {
   double position_mm, rotation_deg;
 };
 
-HeldOut ErrorOnTruth(const BenchProblem& bench, const CalibrationResult& result, ObservationKind kind) {
+HeldOut ErrorOnTruth(const BenchProblem& bench, const CalibrationResult& result,
+                     ObservationKind kind) {
   Random random(41);
   Problem problem{&result.model, {}, {""}, {""}};
   for (int i = 0; i < 500; ++i) {
@@ -81,10 +83,11 @@ TEST(BenchProblems, Arm5WithPointsOnly) {
   EXPECT_LE(ErrorOnTruth(bench, result, ObservationKind::kPoint).position_mm, 0.05);
 }
 
-// The variance components find the noise that made the readings: joint noise of 0.1 mrad over the arm's lengths beside
-// 0.05 mm of the instrument gives about 0.09 mm an axis.
+// The variance components find the noise that made the readings: joint noise of 0.1 mrad over the
+// arm's lengths beside 0.05 mm of the instrument gives about 0.09 mm an axis.
 TEST(BenchProblems, ModelErrorIsThatOfTheNoise) {
-  const CalibrationResult result = CalibrateAll(testing::LoadBench("arm6", 1000, ObservationKind::kPose));
+  const CalibrationResult result =
+      CalibrateAll(testing::LoadBench("arm6", 1000, ObservationKind::kPose));
   EXPECT_NEAR(1e3 * result.identification.model_error.position_sd_m, 0.09, 0.01);
   EXPECT_NEAR(result.identification.model_error.rotation_sd_rad, 1.8e-4, 2e-5);
 }

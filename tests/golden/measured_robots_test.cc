@@ -1,5 +1,6 @@
-// Real measured robots: the figures of the control set that the geometry allows. Everything from the files on: formats,
-// conversion, split, start values, weights, identification. Would catch whatever makes a real robot worse.
+// Real measured robots: the figures of the control set that the geometry allows. Everything from
+// the files on: formats, conversion, split, start values, weights, identification. Would catch
+// whatever makes a real robot worse.
 #include <gtest/gtest.h>
 
 #include "convert/run.h"
@@ -20,13 +21,16 @@ struct MeasuredRun {
 
 v1::CalibrationInput InputOf(const MeasuredRun& run) {
   v1::CalibrationInput input;
-  const auto robot = formats::ReadRobotFile(std::string(TRUEPOSE_SOURCE_DIR "/deploy/examples/") + run.robot);
+  const auto robot =
+      formats::ReadRobotFile(std::string(TRUEPOSE_SOURCE_DIR "/deploy/examples/") + run.robot);
   EXPECT_TRUE(robot.ok()) << robot.status();
   *input.mutable_nominal() = robot->nominal;
-  const auto session = formats::ReadSessionFile(testing::SharedFolder() + "/data/" + run.session, robot->nominal, {});
+  const auto session = formats::ReadSessionFile(testing::SharedFolder() + "/data/" + run.session,
+                                                robot->nominal, {});
   EXPECT_TRUE(session.ok()) << session.status();
   *input.add_sessions()->mutable_session() = session->session;
-  for (const v1::Reading& reading : session->readings) *input.mutable_sessions(0)->add_readings() = reading;
+  for (const v1::Reading& reading : session->readings)
+    *input.mutable_sessions(0)->add_readings() = reading;
   input.mutable_options()->set_split(run.split);
   return input;
 }
@@ -50,15 +54,17 @@ TEST_P(MeasuredRobots, ControlSet) {
 
 INSTANTIATE_TEST_SUITE_P(
     Robots, MeasuredRobots,
-    ::testing::Values(MeasuredRun{"ur10.yaml", "ipa_ur10/series_C.csv", "even-odd", 0.503, 0.060, 30},
-                      MeasuredRun{"ur10.yaml", "ipa_ur10/series_C.csv", "spaced:100", 0.512, 0.061, 30},
-                      MeasuredRun{"ur10.yaml", "ipa_ur10/series_D.csv", "even-odd", 0.430, 0.08, 30},
-                      MeasuredRun{"franka_panda.yaml", "philnad_panda/poses.csv", "even-odd", 1.50, 0.23, 34}),
+    ::testing::Values(
+        MeasuredRun{"ur10.yaml", "ipa_ur10/series_C.csv", "even-odd", 0.503, 0.060, 30},
+        MeasuredRun{"ur10.yaml", "ipa_ur10/series_C.csv", "spaced:100", 0.512, 0.061, 30},
+        MeasuredRun{"ur10.yaml", "ipa_ur10/series_D.csv", "even-odd", 0.430, 0.08, 30},
+        MeasuredRun{"franka_panda.yaml", "philnad_panda/poses.csv", "even-odd", 1.50, 0.23, 34}),
     [](const auto& info) { return "Run" + std::to_string(info.index); });
 
 // Same inputs, same bits: a second run, and a run that reports progress.
 TEST(MeasuredRobotsTwice, SameBits) {
-  const v1::CalibrationInput input = InputOf({"ur10.yaml", "ipa_ur10/series_D.csv", "even-odd", 0, 0, 0});
+  const v1::CalibrationInput input =
+      InputOf({"ur10.yaml", "ipa_ur10/series_D.csv", "even-odd", 0, 0, 0});
   convert::RunHooks hooks;
   double last = 0;
   hooks.on_progress = [&](const v1::JobProgress& progress) {

@@ -1,5 +1,6 @@
-// Numbers of identifiable parameters, Table 3 and Eqs. 11 to 13 in the form of the corrected chapter (docs/models.md).
-// Would catch a B_i of the wrong joint type, a joint motion in the wrong place, a null space that depends on luck.
+// Numbers of identifiable parameters, Table 3 and Eqs. 11 to 13 in the form of the corrected
+// chapter (docs/models.md). Would catch a B_i of the wrong joint type, a joint motion in the wrong
+// place, a null space that depends on luck.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +18,8 @@ using testing::CountedRobot;
 using testing::kDeg;
 using ::testing::UnorderedElementsAre;
 
-// Identifiable parameters of the complete model (with B_0 and C) at generic poses, full pose measured.
+// Identifiable parameters of the complete model (with B_0 and C) at generic poses, full pose
+// measured.
 IdentifiableSet CompleteSet(const Robot& robot, const Model& model) {
   Random random(31);
   const int poses = 60, n = robot.joint_count();
@@ -27,7 +29,8 @@ IdentifiableSet CompleteSet(const Robot& robot, const Model& model) {
   for (int i = 0; i < poses; ++i) {
     const Eigen::VectorXd q = testing::RandomVector(n, 1.5, &random);
     RunSweep(model.chain, q.data(), lambda.data(), &sweep);
-    for (Eigen::Index k = 0; k < J.cols(); ++k) J.block<6, 1>(6 * i, k) = TwistAt(sweep.X_0E.p, sweep.J_parameters.col(k));
+    for (Eigen::Index k = 0; k < J.cols(); ++k)
+      J.block<6, 1>(6 * i, k) = TwistAt(sweep.X_0E.p, sweep.J_parameters.col(k));
   }
   IdentifiabilityOptions options;
   options.use_sd_bounds = false;
@@ -50,15 +53,17 @@ TEST(Ranks, TenChains) {
   for (const CountedRobot& counted : testing::CountedRobots()) {
     SCOPED_TRACE(counted.name);
     const Model model = ModifiedIncremental(counted.robot, ModelExtent::kComplete);
-    EXPECT_EQ(CompleteSet(counted.robot, model).active.size(), static_cast<size_t>(counted.parameters));
+    EXPECT_EQ(CompleteSet(counted.robot, model).active.size(),
+              static_cast<size_t>(counted.parameters));
     EXPECT_EQ(Count(counted.robot, ObservationKind::kPose), counted.parameters);
   }
 }
 
 // Eq. 13 holds only where base and tool motions do not overlap: N - rank(external).
 TEST(Ranks, InternalParameters) {
-  const std::map<std::string, int> internal = {{"SCARA RRPR", 9}, {"planar 3R", 7}, {"gantry PPP", 3}, {"single R", 0},
-                                               {"elbow 6R", 18}, {"Stanford", 16}, {"PPPRRR", 12}, {"Panda 7R", 22}};
+  const std::map<std::string, int> internal = {
+      {"SCARA RRPR", 9}, {"planar 3R", 7}, {"gantry PPP", 3}, {"single R", 0},
+      {"elbow 6R", 18},  {"Stanford", 16}, {"PPPRRR", 12},    {"Panda 7R", 22}};
   for (const CountedRobot& counted : testing::CountedRobots()) {
     const auto expected = internal.find(counted.name);
     if (expected == internal.end()) continue;
@@ -78,7 +83,8 @@ TEST(Ranks, MeasuringRobot) {
   EXPECT_EQ(Count(testing::MeasuringArm(), ObservationKind::kPoint), 23);
 }
 
-// Eq. 12 is an upper bound: with points only a target on the last axis shows fewer parameters than one beside it.
+// Eq. 12 is an upper bound: with points only a target on the last axis shows fewer parameters than
+// one beside it.
 TEST(Ranks, StanfordByPointsDependsOnTheTarget) {
   EXPECT_EQ(Count(testing::Stanford(), ObservationKind::kPoint), 25);
   const Model model = ModifiedIncremental(testing::Stanford(), ModelExtent::kInternal);
@@ -95,7 +101,9 @@ TEST(Ranks, StanfordByPointsDependsOnTheTarget) {
   }
   IdentifiabilityOptions options;
   options.use_sd_bounds = false;
-  EXPECT_EQ(Identifiable(Whitened(problem, estimate, {}).J, Candidates(problem), options).active.size(), 23u);
+  EXPECT_EQ(
+      Identifiable(Whitened(problem, estimate, {}).J, Candidates(problem), options).active.size(),
+      23u);
 }
 
 std::vector<std::string> NamesOf(const std::vector<int>& indices, const ParameterSet& set) {
@@ -109,12 +117,14 @@ TEST(Table3, StanfordModifiedIncremental) {
   const Robot robot = testing::Stanford();
   const Model model = ModifiedIncremental(robot, ModelExtent::kComplete);
   EXPECT_THAT(NamesOf(CompleteSet(robot, model).active, model.parameters),
-              UnorderedElementsAre("dalpha0", "dbeta0", "da0", "db0", "dq1", "dalpha1", "da1", "db1", "dq2", "dalpha2",
-                                   "dq3", "dalpha3", "dbeta3", "da3", "db3", "dq4", "dalpha4", "da4", "dq5", "dalpha5",
-                                   "da5", "db5", "dq6", "dalpha6", "dbeta6", "da6", "db6", "dc6"));
+              UnorderedElementsAre("dalpha0", "dbeta0", "da0", "db0", "dq1", "dalpha1", "da1",
+                                   "db1", "dq2", "dalpha2", "dq3", "dalpha3", "dbeta3", "da3",
+                                   "db3", "dq4", "dalpha4", "da4", "dq5", "dalpha5", "da5", "db5",
+                                   "dq6", "dalpha6", "dbeta6", "da6", "db6", "dc6"));
 }
 
-// Its redundancies: dq1 = dbeta1, dq2 = dbeta2, dq3 = -db4, dq4 = -dbeta4, dq5 = dbeta5, dq6 = dgamma6.
+// Its redundancies: dq1 = dbeta1, dq2 = dbeta2, dq3 = -db4, dq4 = -dbeta4, dq5 = dbeta5, dq6 =
+// dgamma6.
 TEST(Table3, StanfordRedundancies) {
   const Robot robot = testing::Stanford();
   const Model model = ModifiedIncremental(robot, ModelExtent::kComplete);
@@ -123,15 +133,19 @@ TEST(Table3, StanfordRedundancies) {
   for (const NullRelation& relation : set.redundancies) {
     relations[model.parameters[relation.dropped].name] = RelationText(relation, model.parameters);
   }
-  EXPECT_EQ(relations, (std::map<std::string, std::string>{{"dbeta1", "dbeta1 = +1 dq1"}, {"dbeta2", "dbeta2 = +1 dq2"},
-                                                           {"db4", "db4 = -1 dq3"}, {"dbeta4", "dbeta4 = -1 dq4"},
-                                                           {"dbeta5", "dbeta5 = +1 dq5"}, {"dgamma6", "dgamma6 = +1 dq6"}}));
+  EXPECT_EQ(relations, (std::map<std::string, std::string>{{"dbeta1", "dbeta1 = +1 dq1"},
+                                                           {"dbeta2", "dbeta2 = +1 dq2"},
+                                                           {"db4", "db4 = -1 dq3"},
+                                                           {"dbeta4", "dbeta4 = -1 dq4"},
+                                                           {"dbeta5", "dbeta5 = +1 dq5"},
+                                                           {"dgamma6", "dgamma6 = +1 dq6"}}));
 }
 
 // Table 2: j5 - j9 - l_i j12 = 0, that is dbeta_i = dq_i - l_i db_{i+1} for the links of Fig. 7.
 TEST(Table2, RelationWithALength) {
   const double length = 0.4;
-  const Robot robot = testing::DhRobot({{0, 0, length, 90 * kDeg}, {0, 0, 0.3, -90 * kDeg}, {0, 0, 0.1, 0}}, "RRR");
+  const Robot robot =
+      testing::DhRobot({{0, 0, length, 90 * kDeg}, {0, 0, 0.3, -90 * kDeg}, {0, 0, 0.1, 0}}, "RRR");
   const Model model = ModifiedIncremental(robot, ModelExtent::kComplete);
   const IdentifiableSet set = CompleteSet(robot, model);
   const int dbeta1 = *model.parameters.Find("dbeta1");

@@ -1,6 +1,6 @@
-// Forward(Compensate(X)) == X for every robot: the identified chain at compensated joints is where the nominal one would
-// be. Would catch a correction of the wrong sign (which doubles the error), a twist at the wrong point, and a Newton that
-// stops early.
+// Forward(Compensate(X)) == X for every robot: the identified chain at compensated joints is where
+// the nominal one would be. Would catch a correction of the wrong sign (which doubles the error), a
+// twist at the wrong point, and a Newton that stops early.
 #include <gtest/gtest.h>
 
 #include "core/compensation/compensate.h"
@@ -11,7 +11,9 @@ namespace {
 
 using testing::RandomVector;
 
-Eigen::VectorXd Errors(const Model& model, Random* random) { return RandomVector(model.parameters.size(), 2e-3, random); }
+Eigen::VectorXd Errors(const Model& model, Random* random) {
+  return RandomVector(model.parameters.size(), 2e-3, random);
+}
 
 TEST(CompensationLaws, JointTargetsOfRobotsWithSixOrMoreJoints) {
   Random random(21);
@@ -19,14 +21,16 @@ TEST(CompensationLaws, JointTargetsOfRobotsWithSixOrMoreJoints) {
     if (counted.robot.joint_count() < 6) continue;
     SCOPED_TRACE(counted.name);
     const Model model = ModifiedIncremental(counted.robot, ModelExtent::kInternal);
-    const Eigen::VectorXd lambda = Errors(model, &random), nominal = Eigen::VectorXd::Zero(lambda.size());
+    const Eigen::VectorXd lambda = Errors(model, &random),
+                          nominal = Eigen::VectorXd::Zero(lambda.size());
     for (int draw = 0; draw < 20; ++draw) {
       // Away from stretched elbows and wrists, where no small correction exists.
       const int n = counted.robot.joint_count();
       const Eigen::VectorXd q = Eigen::VectorXd::Constant(n, 0.9) + RandomVector(n, 0.4, &random);
       const auto solved = CompensateJoints(model, lambda, q, {});
       ASSERT_TRUE(solved.ok()) << solved.status() << " at " << q.transpose();
-      const Pose desired = Forward(model.chain, q, nominal), reached = Forward(model.chain, solved->q, lambda);
+      const Pose desired = Forward(model.chain, q, nominal),
+                 reached = Forward(model.chain, solved->q, lambda);
       EXPECT_LT((desired.p - reached.p).norm(), 1e-12);
       EXPECT_LT((desired.R - reached.R).norm(), 1e-12);
       EXPECT_GT((solved->q - q).norm(), 1e-5) << "errors of 2 mm need a correction";
@@ -44,7 +48,8 @@ TEST(CompensationLaws, NoErrorNoCorrection) {
   EXPECT_LT((solved->q - q).norm(), 1e-14);
 }
 
-// At a stretched elbow a target beyond reach has no answer, and joints must not run away: an error, not numbers.
+// At a stretched elbow a target beyond reach has no answer, and joints must not run away: an error,
+// not numbers.
 TEST(CompensationLaws, OutOfReachIsAnError) {
   const Robot robot = testing::Ur10();
   const Model model = ModifiedIncremental(robot, ModelExtent::kInternal);
@@ -60,15 +65,18 @@ TEST(CompensationLaws, FiveJointsReportTheirRemainder) {
   Random random(22);
   const Robot robot = testing::MeasuringArm();
   const Model model = ModifiedIncremental(robot, ModelExtent::kInternal);
-  const Eigen::VectorXd lambda = Errors(model, &random), nominal = Eigen::VectorXd::Zero(lambda.size());
+  const Eigen::VectorXd lambda = Errors(model, &random),
+                        nominal = Eigen::VectorXd::Zero(lambda.size());
   const Eigen::VectorXd q = (Eigen::VectorXd(5) << 0.2, 0.5, -0.6, 0.4, 0.7).finished();
   const auto solved = CompensateJoints(model, lambda, q, {});
   ASSERT_TRUE(solved.ok()) << solved.status();
-  const Pose desired = Forward(model.chain, q, nominal), reached = Forward(model.chain, solved->q, lambda);
+  const Pose desired = Forward(model.chain, q, nominal),
+             reached = Forward(model.chain, solved->q, lambda);
   EXPECT_NEAR((desired.p - reached.p).norm(), solved->position_residual_m, 1e-15);
   const Pose uncorrected = Forward(model.chain, q, lambda);
   EXPECT_LT(solved->position_residual_m + solved->rotation_residual_rad,
-            (desired.p - uncorrected.p).norm() + LogRotation<double>(desired.R * uncorrected.R.transpose()).norm());
+            (desired.p - uncorrected.p).norm() +
+                LogRotation<double>(desired.R * uncorrected.R.transpose()).norm());
 }
 
 TEST(CompensationLaws, NominalInverseFindsTheNearestConfiguration) {

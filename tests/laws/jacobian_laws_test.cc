@@ -1,8 +1,10 @@
-// Every Jacobian three ways: analytic = central difference = Jet, at home, at random and at zero rotation. Would catch a
-// wrong sign, a column of the wrong element, a twist taken at the wrong point, and a derivative that forgets the residual.
+// Every Jacobian three ways: analytic = central difference = Jet, at home, at random and at zero
+// rotation. Would catch a wrong sign, a column of the wrong element, a twist taken at the wrong
+// point, and a derivative that forgets the residual.
 //
-// Tolerances: Jets are exact, so 1e-12 of entries of size 1 to 3; a central difference with h = 1e-6 has an error of
-// h^2 = 1e-12 from the third derivative and of eps / h = 2e-10 from rounding, so 2e-9.
+// Tolerances: Jets are exact, so 1e-12 of entries of size 1 to 3; a central difference with h =
+// 1e-6 has an error of h^2 = 1e-12 from the third derivative and of eps / h = 2e-10 from rounding,
+// so 2e-9.
 #include <ceres/jet.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +20,8 @@ constexpr double kJetTolerance = 1e-12;
 constexpr double kDifferenceTolerance = 2e-9;
 
 // Twist at the base origin from the derivative of a pose: dX X^-1.
-Eigen::Matrix<double, 6, 1> TwistOf(const Pose& X, const Eigen::Matrix3d& dR, const Eigen::Vector3d& dp) {
+Eigen::Matrix<double, 6, 1> TwistOf(const Pose& X, const Eigen::Matrix3d& dR,
+                                    const Eigen::Vector3d& dp) {
   const Eigen::Matrix3d W = dR * X.R.transpose();
   const Eigen::Vector3d w(W(2, 1), W(0, 2), W(1, 0));
   Eigen::Matrix<double, 6, 1> twist;
@@ -26,13 +29,15 @@ Eigen::Matrix<double, 6, 1> TwistOf(const Pose& X, const Eigen::Matrix3d& dR, co
   return twist;
 }
 
-Eigen::MatrixXd JetJacobian(const Chain& chain, const Eigen::VectorXd& q, const Eigen::VectorXd& lambda, bool joints) {
+Eigen::MatrixXd JetJacobian(const Chain& chain, const Eigen::VectorXd& q,
+                            const Eigen::VectorXd& lambda, bool joints) {
   using Jet = ceres::Jet<double, 1>;
   const Eigen::Index n = joints ? q.size() : lambda.size();
   const Pose X = Forward(chain, q, lambda);
   Eigen::MatrixXd J(6, n);
   for (Eigen::Index k = 0; k < n; ++k) {
-    std::vector<Jet> qj(q.data(), q.data() + q.size()), lj(lambda.data(), lambda.data() + lambda.size());
+    std::vector<Jet> qj(q.data(), q.data() + q.size()),
+        lj(lambda.data(), lambda.data() + lambda.size());
     (joints ? qj : lj)[k].v[0] = 1;
     const PoseT<Jet> XJ = Forward<Jet>(chain, qj.data(), lj.data());
     J.col(k) = TwistOf(X, XJ.R.unaryExpr([](const Jet& x) { return x.v[0]; }),
@@ -41,7 +46,8 @@ Eigen::MatrixXd JetJacobian(const Chain& chain, const Eigen::VectorXd& q, const 
   return J;
 }
 
-Eigen::MatrixXd DifferenceJacobian(const Chain& chain, Eigen::VectorXd q, Eigen::VectorXd lambda, bool joints) {
+Eigen::MatrixXd DifferenceJacobian(const Chain& chain, Eigen::VectorXd q, Eigen::VectorXd lambda,
+                                   bool joints) {
   const double h = 1e-6;
   const Pose X = Forward(chain, q, lambda);
   Eigen::VectorXd& v = joints ? q : lambda;
@@ -64,10 +70,15 @@ void ExpectSweepLaws(const Chain& chain, const Eigen::VectorXd& q, const Eigen::
   const Pose X = Forward(chain, q, lambda);
   EXPECT_EQ(sweep.X_0E.R, X.R);
   EXPECT_EQ(sweep.X_0E.p, X.p);
-  EXPECT_LT((sweep.J_joints - JetJacobian(chain, q, lambda, true)).cwiseAbs().maxCoeff(), kJetTolerance);
-  EXPECT_LT((sweep.J_parameters - JetJacobian(chain, q, lambda, false)).cwiseAbs().maxCoeff(), kJetTolerance);
-  EXPECT_LT((sweep.J_joints - DifferenceJacobian(chain, q, lambda, true)).cwiseAbs().maxCoeff(), kDifferenceTolerance);
-  EXPECT_LT((sweep.J_parameters - DifferenceJacobian(chain, q, lambda, false)).cwiseAbs().maxCoeff(), kDifferenceTolerance);
+  EXPECT_LT((sweep.J_joints - JetJacobian(chain, q, lambda, true)).cwiseAbs().maxCoeff(),
+            kJetTolerance);
+  EXPECT_LT((sweep.J_parameters - JetJacobian(chain, q, lambda, false)).cwiseAbs().maxCoeff(),
+            kJetTolerance);
+  EXPECT_LT((sweep.J_joints - DifferenceJacobian(chain, q, lambda, true)).cwiseAbs().maxCoeff(),
+            kDifferenceTolerance);
+  EXPECT_LT(
+      (sweep.J_parameters - DifferenceJacobian(chain, q, lambda, false)).cwiseAbs().maxCoeff(),
+      kDifferenceTolerance);
 }
 
 TEST(JacobianLaws, ChainSweepAtHomeAndAtRandom) {
@@ -85,8 +96,10 @@ TEST(JacobianLaws, ChainSweepAtHomeAndAtRandom) {
 
 // A parameter that moves two elements gets the sum of their columns.
 TEST(JacobianLaws, SharedParameterIsSummed) {
-  const Chain chain = {{Motion::kRotation, Axis::kX, 0.1, 0, 0}, {Motion::kTranslation, Axis::kY, 0.5, -1, -1},
-                       {Motion::kRotation, Axis::kZ, 0.2, 0, 0}, {Motion::kTranslation, Axis::kZ, 0.2, -1, 1}};
+  const Chain chain = {{Motion::kRotation, Axis::kX, 0.1, 0, 0},
+                       {Motion::kTranslation, Axis::kY, 0.5, -1, -1},
+                       {Motion::kRotation, Axis::kZ, 0.2, 0, 0},
+                       {Motion::kTranslation, Axis::kZ, 0.2, -1, 1}};
   ExpectSweepLaws(chain, Eigen::VectorXd::Constant(1, 0.4), Eigen::Vector2d(0.3, -0.2));
 }
 
@@ -95,8 +108,8 @@ struct Point {
 };
 
 // Residual derivatives by central difference of EvaluateReading without Jacobian.
-Eigen::MatrixXd ResidualDifference(const Model& model, const Reading& reading, const Pose& X_MB, const Pose& X_FT,
-                                   Point at, Eigen::VectorXd Point::*part) {
+Eigen::MatrixXd ResidualDifference(const Model& model, const Reading& reading, const Pose& X_MB,
+                                   const Pose& X_FT, Point at, Eigen::VectorXd Point::*part) {
   const double h = 1e-6;
   Workspace workspace;
   Eigen::VectorXd& v = at.*part;
@@ -105,27 +118,41 @@ Eigen::MatrixXd ResidualDifference(const Model& model, const Reading& reading, c
     const double value = v(k);
     Residual plus, minus;
     v(k) = value + h;
-    EvaluateReading(model, reading, X_MB, X_FT, at.base.data(), at.tool.data(), at.internal.data(), &workspace, &plus, nullptr);
+    EvaluateReading(model, reading, X_MB, X_FT, at.base.data(), at.tool.data(), at.internal.data(),
+                    &workspace, &plus, nullptr);
     v(k) = value - h;
-    EvaluateReading(model, reading, X_MB, X_FT, at.base.data(), at.tool.data(), at.internal.data(), &workspace, &minus, nullptr);
+    EvaluateReading(model, reading, X_MB, X_FT, at.base.data(), at.tool.data(), at.internal.data(),
+                    &workspace, &minus, nullptr);
     v(k) = value;
     J.col(k) = (plus - minus) / (2 * h);
   }
   return J;
 }
 
-void ExpectResidualLaws(const Model& model, const Reading& reading, const Pose& X_MB, const Pose& X_FT, const Point& at) {
+void ExpectResidualLaws(const Model& model, const Reading& reading, const Pose& X_MB,
+                        const Pose& X_FT, const Point& at) {
   Workspace workspace;
   Residual r, r_alone;
   ReadingJacobian J;
-  EvaluateReading(model, reading, X_MB, X_FT, at.base.data(), at.tool.data(), at.internal.data(), &workspace, &r, &J);
-  EvaluateReading(model, reading, X_MB, X_FT, at.base.data(), at.tool.data(), at.internal.data(), &workspace, &r_alone, nullptr);
+  EvaluateReading(model, reading, X_MB, X_FT, at.base.data(), at.tool.data(), at.internal.data(),
+                  &workspace, &r, &J);
+  EvaluateReading(model, reading, X_MB, X_FT, at.base.data(), at.tool.data(), at.internal.data(),
+                  &workspace, &r_alone, nullptr);
   EXPECT_LT((r - r_alone).norm(), 1e-14);
   // Rotation residuals of up to 1 rad magnify rounding a little.
   const double tolerance = 5 * kDifferenceTolerance;
-  EXPECT_LT((J.base - ResidualDifference(model, reading, X_MB, X_FT, at, &Point::base)).cwiseAbs().maxCoeff(), tolerance);
-  EXPECT_LT((J.tool - ResidualDifference(model, reading, X_MB, X_FT, at, &Point::tool)).cwiseAbs().maxCoeff(), tolerance);
-  EXPECT_LT((J.internal - ResidualDifference(model, reading, X_MB, X_FT, at, &Point::internal)).cwiseAbs().maxCoeff(), tolerance);
+  EXPECT_LT((J.base - ResidualDifference(model, reading, X_MB, X_FT, at, &Point::base))
+                .cwiseAbs()
+                .maxCoeff(),
+            tolerance);
+  EXPECT_LT((J.tool - ResidualDifference(model, reading, X_MB, X_FT, at, &Point::tool))
+                .cwiseAbs()
+                .maxCoeff(),
+            tolerance);
+  EXPECT_LT((J.internal - ResidualDifference(model, reading, X_MB, X_FT, at, &Point::internal))
+                .cwiseAbs()
+                .maxCoeff(),
+            tolerance);
 }
 
 class ResidualLaws : public ::testing::TestWithParam<ObservationKind> {};
@@ -137,12 +164,16 @@ void CheckResidual(ObservationKind kind, double off, uint64_t seed) {
   const Model model = ModifiedIncremental(robot, ModelExtent::kInternal);
   const Pose X_MB{ExpRotation<double>(RandomVector(3, 1.5, &random)), RandomVector(3, 2, &random)};
   const Pose X_FT{ExpRotation<double>(RandomVector(3, 1, &random)), RandomVector(3, 0.2, &random)};
-  const Point at{RandomVector(6, 0.05, &random), RandomVector(6, 0.05, &random), RandomVector(model.parameters.size(), 0.02, &random)};
+  const Point at{RandomVector(6, 0.05, &random), RandomVector(6, 0.05, &random),
+                 RandomVector(model.parameters.size(), 0.02, &random)};
   Reading reading;
   reading.kind = kind;
   reading.q = RandomVector(6, 2, &random);
-  const Pose X_MT = Corrected(X_MB, at.base.data(), nullptr) * Forward(model.chain, reading.q, at.internal) * Corrected(X_FT, at.tool.data(), nullptr);
-  reading.X_MT = {ExpRotation<double>(RandomVector(3, off, &random)) * X_MT.R, X_MT.p + RandomVector(3, off, &random)};
+  const Pose X_MT = Corrected(X_MB, at.base.data(), nullptr) *
+                    Forward(model.chain, reading.q, at.internal) *
+                    Corrected(X_FT, at.tool.data(), nullptr);
+  reading.X_MT = {ExpRotation<double>(RandomVector(3, off, &random)) * X_MT.R,
+                  X_MT.p + RandomVector(3, off, &random)};
   reading.axis_M = reading.X_MT.R.col(2);
   ExpectResidualLaws(model, reading, X_MB, X_FT, at);
 }
@@ -156,7 +187,8 @@ TEST_P(ResidualLaws, AtLargeResidual) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, ResidualLaws,
-                         ::testing::Values(ObservationKind::kPose, ObservationKind::kPoint, ObservationKind::kPointAxis),
+                         ::testing::Values(ObservationKind::kPose, ObservationKind::kPoint,
+                                           ObservationKind::kPointAxis),
                          [](const auto& info) { return std::string(KindOf(info.param).name); });
 
 }  // namespace

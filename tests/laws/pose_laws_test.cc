@@ -1,5 +1,6 @@
-// The laws of the pose group and of rotation vectors, at identity, tiny, random and near-pi arguments. Would catch a
-// wrong order, a missing transpose, a series used outside its range, and a logarithm that fails near half a turn.
+// The laws of the pose group and of rotation vectors, at identity, tiny, random and near-pi
+// arguments. Would catch a wrong order, a missing transpose, a series used outside its range, and a
+// logarithm that fails near half a turn.
 #include <gtest/gtest.h>
 
 #include "core/geometry/pose.h"
@@ -37,7 +38,8 @@ TEST(PoseLaws, GroupOfPoses) {
   }
 }
 
-// Exp and Log undo each other; the quaternion is of unit length with w >= 0 and gives the matrix back.
+// Exp and Log undo each other; the quaternion is of unit length with w >= 0 and gives the matrix
+// back.
 TEST(PoseLaws, RotationVectors) {
   for (const Pose& A : Poses()) {
     const Eigen::Vector3d r = LogRotation<double>(A.R);
@@ -50,20 +52,26 @@ TEST(PoseLaws, RotationVectors) {
   }
 }
 
-// A rotation by a known angle about a known axis: a sign error in Exp, Log and Hat together would pass the law above.
+// A rotation by a known angle about a known axis: a sign error in Exp, Log and Hat together would
+// pass the law above.
 TEST(PoseLaws, ARightHandedQuarterTurn) {
   const Eigen::Matrix3d R = ExpRotation<double>({0, 0, M_PI / 2});
   EXPECT_LT((R * Eigen::Vector3d::UnitX() - Eigen::Vector3d::UnitY()).norm(), 1e-15);
   EXPECT_LT((LogRotation<double>(R) - Eigen::Vector3d(0, 0, M_PI / 2)).norm(), 1e-15);
-  EXPECT_EQ(Hat<double>({1, 2, 3}) * Eigen::Vector3d(4, 5, 6), Eigen::Vector3d(1, 2, 3).cross(Eigen::Vector3d(4, 5, 6)));
+  EXPECT_EQ(Hat<double>({1, 2, 3}) * Eigen::Vector3d(4, 5, 6),
+            Eigen::Vector3d(1, 2, 3).cross(Eigen::Vector3d(4, 5, 6)));
 }
 
-// Log(Exp(r) Exp(w)) - r = J_r^-1(r) w for tiny w, also where the coefficient changes to its series.
+// Log(Exp(r) Exp(w)) - r = J_r^-1(r) w for tiny w, also where the coefficient changes to its
+// series.
 TEST(PoseLaws, RightJacobianInverse) {
   Random random(6);
   for (double size : {0.0, 1e-5, 9.9e-4, 1.01e-3, 0.1, 1.0, 3.0}) {
-    const Eigen::Vector3d r = size * RandomVector(3, 1, &random).normalized(), w = 1e-6 * RandomVector(3, 1, &random);
-    const auto log = [&](const Eigen::Vector3d& v) { return LogRotation<double>(ExpRotation<double>(r) * ExpRotation<double>(v)); };
+    const Eigen::Vector3d r = size * RandomVector(3, 1, &random).normalized(),
+                          w = 1e-6 * RandomVector(3, 1, &random);
+    const auto log = [&](const Eigen::Vector3d& v) {
+      return LogRotation<double>(ExpRotation<double>(r) * ExpRotation<double>(v));
+    };
     EXPECT_LT(((log(w) - log(-w)) / 2 - RightJacobianInverse(r) * w).norm(), 1e-14) << size;
   }
 }
@@ -87,16 +95,18 @@ TEST(PoseLaws, AlignPointsFindsThePose) {
   }
 }
 
-// Corrections of a frame: zero changes nothing; positions are along the axes of the frame's base and do not turn it;
-// rotations leave its origin where it is.
+// Corrections of a frame: zero changes nothing; positions are along the axes of the frame's base
+// and do not turn it; rotations leave its origin where it is.
 TEST(PoseLaws, FrameCorrections) {
   for (const Pose& X : Poses()) {
     const double zero[6] = {};
     EXPECT_LT(Distance(Corrected(X, zero, nullptr), X), 1e-15);
     const double shift[6] = {0.1, -0.2, 0.3, 0, 0, 0};
-    EXPECT_LT(Distance(Corrected(X, shift, nullptr), {X.R, X.p + Eigen::Vector3d(0.1, -0.2, 0.3)}), 1e-15);
+    EXPECT_LT(Distance(Corrected(X, shift, nullptr), {X.R, X.p + Eigen::Vector3d(0.1, -0.2, 0.3)}),
+              1e-15);
     const double turn[6] = {0, 0, 0, 0.1, 0, 0};
-    EXPECT_LT(Distance(Corrected(X, turn, nullptr), {ExpRotation<double>({0.1, 0, 0}) * X.R, X.p}), 1e-15);
+    EXPECT_LT(Distance(Corrected(X, turn, nullptr), {ExpRotation<double>({0.1, 0, 0}) * X.R, X.p}),
+              1e-15);
   }
 }
 

@@ -11,7 +11,8 @@ using Rows = std::vector<int>;
 using Strings = std::vector<std::string>;
 
 // Calibration rows of a split of n rows.
-Rows Calibration(const std::string& text, int n, const Strings& groups = {}, const Strings& values = {}) {
+Rows Calibration(const std::string& text, int n, const Strings& groups = {},
+                 const Strings& values = {}) {
   const auto split = ParseSplit(text);
   EXPECT_TRUE(split.ok()) << split.status();
   const auto roles = ApplySplit(*split, n, groups, values);
@@ -33,7 +34,8 @@ TEST(Split, Rules) {
   EXPECT_EQ(Calibration("spaced:4", 4), (Rows{0, 1, 2, 3}));
 }
 
-// Known answers of a separate implementation of the shuffle: a split is named in reports and must never change.
+// Known answers of a separate implementation of the shuffle: a split is named in reports and must
+// never change.
 TEST(Split, RandomIsTheDocumentedShuffle) {
   EXPECT_EQ(Calibration("random:7", 10), (Rows{0, 3, 4, 7, 9}));
   EXPECT_EQ(Calibration("random:1:0.25", 12), (Rows{3, 5, 10}));
@@ -56,13 +58,16 @@ std::string FieldOf(const absl::Status& status) {
 }
 
 TEST(SplitFaults, Unreadable) {
-  for (const char* text : {"odd-even", "first", "first:0", "first:-3", "first:x", "first:2:3", "every:", "random", "random:-1",
-                           "random:1:0", "random:1:1", "random:1:x", "random:1:0.5:2", "column:", "column:a", "column:=a", "spaced:1.5"}) {
+  for (const char* text :
+       {"odd-even", "first", "first:0", "first:-3", "first:x", "first:2:3", "every:", "random",
+        "random:-1", "random:1:0", "random:1:1", "random:1:x", "random:1:0.5:2",
+        "column:", "column:a", "column:=a", "spaced:1.5"}) {
     EXPECT_EQ(FieldOf(ParseSplit(text).status()), "options.split") << text;
   }
 }
 
-absl::Status Apply(const std::string& text, int n, const Strings& groups = {}, const Strings& values = {}) {
+absl::Status Apply(const std::string& text, int n, const Strings& groups = {},
+                   const Strings& values = {}) {
   return ApplySplit(*ParseSplit(text), n, groups, values).status();
 }
 

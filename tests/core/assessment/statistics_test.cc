@@ -37,14 +37,16 @@ std::vector<PoseError> Errors(const std::vector<double>& sizes) {
   return errors;
 }
 
-// A constant ratio has no spread; pairing matters: the same ratio in each row, whatever the rows' sizes.
+// A constant ratio has no spread; pairing matters: the same ratio in each row, whatever the rows'
+// sizes.
 TEST(Verdict, BootstrapIsPaired) {
   const auto [low, high] = BootstrapRatio(Errors({1, 5, 0.2, 9}), Errors({0.5, 2.5, 0.1, 4.5}));
   EXPECT_NEAR(low, 0.5, 1e-12);
   EXPECT_NEAR(high, 0.5, 1e-12);
 }
 
-// Hand-made: 20 rows, half of them twice as large after. The interval spans 95 % of what draws of rows give.
+// Hand-made: 20 rows, half of them twice as large after. The interval spans 95 % of what draws of
+// rows give.
 TEST(Verdict, BootstrapIntervalHasItsWidth) {
   std::vector<double> before(200, 1.0), after;
   for (int i = 0; i < 200; ++i) after.push_back(i % 2 == 0 ? 2.0 : 0.5);
@@ -64,7 +66,8 @@ TEST(Verdict, Decisions) {
   const auto better = Errors({0.5, 0.4, 0.6, 0.5}), worse = Errors({1, 1.1, 0.9, 1.2});
   EXPECT_EQ(Judge(Converged(), worse, better).decision, Decision::kApply);
   EXPECT_EQ(Judge(Converged(), better, worse).decision, Decision::kDoNotApply);
-  EXPECT_EQ(Judge(Converged(), worse, worse).decision, Decision::kDoNotApply) << "no change is no improvement";
+  EXPECT_EQ(Judge(Converged(), worse, worse).decision, Decision::kDoNotApply)
+      << "no change is no improvement";
   EXPECT_EQ(Judge(Converged(), {}, {}).decision, Decision::kApplyWithinVolume);
   Identification dropped = Converged();
   dropped.set.redundancies.push_back({3, {}, true, false});

@@ -7,7 +7,8 @@
 namespace truepose {
 namespace {
 
-// Would catch a payload that loses a field, or a text with tab, newline or backslash that splits one fault into two.
+// Would catch a payload that loses a field, or a text with tab, newline or backslash that splits
+// one fault into two.
 TEST(Fault, StatusCarriesAllFaultsUnchanged) {
   FaultList list;
   list.Add("a.csv:3: q1_rad", "'x\ty\n\\t\\'", "a number");
@@ -23,7 +24,8 @@ TEST(Fault, EmptyListIsOk) { EXPECT_TRUE(FaultList().ToStatus().ok()); }
 TEST(Fault, CodeIsTheCallers) {
   FaultList list;
   list.Add("a", "b", "c");
-  EXPECT_EQ(list.ToStatus(absl::StatusCode::kFailedPrecondition).code(), absl::StatusCode::kFailedPrecondition);
+  EXPECT_EQ(list.ToStatus(absl::StatusCode::kFailedPrecondition).code(),
+            absl::StatusCode::kFailedPrecondition);
 }
 
 // A file of the wrong kind: 200 faults are enough to read, and the rest is counted.

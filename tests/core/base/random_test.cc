@@ -5,11 +5,12 @@
 namespace truepose {
 namespace {
 
-// Splits and simulated sessions are promised to be the same on every platform and for ever: known answers, from a
-// separate implementation of mt19937_64 with its published constants.
+// Splits and simulated sessions are promised to be the same on every platform and for ever: known
+// answers, from a separate implementation of mt19937_64 with its published constants.
 TEST(Random, KnownAnswers) {
   EXPECT_EQ(Random(3).Below(UINT64_MAX), 10307413207671831467u);
-  EXPECT_EQ(Random(3).Uniform(), static_cast<double>(10307413207671831467u >> 11) / 9007199254740992.0);
+  EXPECT_EQ(Random(3).Uniform(),
+            static_cast<double>(10307413207671831467u >> 11) / 9007199254740992.0);
 }
 
 TEST(Random, BelowCoversEveryValueEvenly) {

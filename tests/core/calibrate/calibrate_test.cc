@@ -23,14 +23,16 @@ SimulateOptions Noise(double position_m, double rotation_rad, int poses = 80) {
   return options;
 }
 
-CalibrationResult MustCalibrate(const CalibrationProblem& problem, const CalibrateOptions& options = {}) {
+CalibrationResult MustCalibrate(const CalibrationProblem& problem,
+                                const CalibrateOptions& options = {}) {
   auto result = Calibrate(problem, options, {});
   EXPECT_TRUE(result.ok()) << result.status();
   return *std::move(result);
 }
 
-// Without noise the true robot is found, whatever its kinematics: the control set is met to 1e-9 m. Would catch a model
-// that is not complete (it could not follow) and a sign that the fit can't reach.
+// Without noise the true robot is found, whatever its kinematics: the control set is met to 1e-9 m.
+// Would catch a model that is not complete (it could not follow) and a sign that the fit can't
+// reach.
 TEST(Calibrate, ExactReadingsAreMetExactly) {
   for (const testing::CountedRobot& counted : testing::CountedRobots()) {
     SCOPED_TRACE(counted.name);
@@ -45,8 +47,9 @@ TEST(Calibrate, ExactReadingsAreMetExactly) {
   }
 }
 
-// The deviations are those of the noise: errors of parameters over their deviations have mean square 1 (30 parameters over
-// 20 sessions: 600 values, sd of the mean 0.06; dependent ones widen it). Would catch a covariance of another scale.
+// The deviations are those of the noise: errors of parameters over their deviations have mean
+// square 1 (30 parameters over 20 sessions: 600 values, sd of the mean 0.06; dependent ones widen
+// it). Would catch a covariance of another scale.
 TEST(Calibrate, StandardDeviationsAreThoseOfTheErrors) {
   const Robot robot = testing::Stanford();
   double squares = 0;
@@ -77,19 +80,22 @@ TEST(Calibrate, DroppedStayNominal) {
   const Simulated simulated(testing::Ur10(), AnyTarget(), Noise(1e-4, 1e-4));
   const CalibrationResult result = MustCalibrate(simulated.Problem());
   const IdentifiableSet& set = result.identification.set;
-  EXPECT_EQ(set.active.size() + set.redundancies.size(), static_cast<size_t>(result.candidates.size()));
+  EXPECT_EQ(set.active.size() + set.redundancies.size(),
+            static_cast<size_t>(result.candidates.size()));
   for (const NullRelation& relation : set.redundancies) {
     EXPECT_TRUE(relation.structural) << RelationText(relation, result.candidates);
     EXPECT_EQ(result.identification.estimate.lambda(relation.dropped - 12), 0);
   }
 }
 
-// Two joints move: what the others do can't be seen. They stay nominal, are named, and the verdict is limited.
+// Two joints move: what the others do can't be seen. They stay nominal, are named, and the verdict
+// is limited.
 TEST(Calibrate, SessionThatMovesTwoJoints) {
   const Simulated simulated(testing::Ur10(), AnyTarget(), Noise(1e-4, 1e-4, 60));
   CalibrationProblem problem = simulated.Problem();
   Random random(92);
-  Estimate truth{{simulated.session().X_MB}, {simulated.session().X_FT}, simulated.session().lambda};
+  Estimate truth{
+      {simulated.session().X_MB}, {simulated.session().X_FT}, simulated.session().lambda};
   Problem all{&simulated.model(), {}, {""}, {""}};
   for (Reading& reading : problem.readings) {
     Eigen::VectorXd q = Eigen::VectorXd::Constant(6, 0.7);
@@ -99,7 +105,8 @@ TEST(Calibrate, SessionThatMovesTwoJoints) {
     reading.X_MT = Predict(all, reading, truth);
   }
   const auto result = Calibrate(problem, {}, {});
-  // Two rotating axes leave a motion of base and tool that no reading can tell apart: refused by name, not guessed.
+  // Two rotating axes leave a motion of base and tool that no reading can tell apart: refused by
+  // name, not guessed.
   if (!result.ok()) {
     EXPECT_EQ(result.status().code(), absl::StatusCode::kFailedPrecondition);
     EXPECT_FALSE(FaultsOf(result.status()).empty());
@@ -167,11 +174,14 @@ TEST(CalibrateFaults, CancelledAtAnyMoment) {
     int asked = 0;
     Hooks hooks;
     hooks.is_cancelled = [&] { return asked++ >= after; };
-    EXPECT_EQ(Calibrate(simulated.Problem(), {}, hooks).status().code(), absl::StatusCode::kCancelled) << after;
+    EXPECT_EQ(Calibrate(simulated.Problem(), {}, hooks).status().code(),
+              absl::StatusCode::kCancelled)
+        << after;
   }
 }
 
-// Control rows of a placement that has no calibration row: its base is fitted on them, and the result says so.
+// Control rows of a placement that has no calibration row: its base is fitted on them, and the
+// result says so.
 TEST(Calibrate, PlacementOfControlRowsOnly) {
   const Simulated simulated(testing::Ur10(), AnyTarget(), Noise(1e-4, 1e-4));
   CalibrationProblem problem = simulated.Problem();
@@ -183,14 +193,16 @@ TEST(Calibrate, PlacementOfControlRowsOnly) {
     problem.readings[i].X_MT = moved * problem.readings[i].X_MT;
   }
   const CalibrationResult result = MustCalibrate(problem);
-  EXPECT_EQ(result.base_fitted_on, (std::vector<FittedOn>{FittedOn::kCalibrationRows, FittedOn::kOwnRows}));
+  EXPECT_EQ(result.base_fitted_on,
+            (std::vector<FittedOn>{FittedOn::kCalibrationRows, FittedOn::kOwnRows}));
   EXPECT_EQ(result.tool_fitted_on, (std::vector<FittedOn>{FittedOn::kCalibrationRows}));
   EXPECT_LT(PoseStatisticsOf(result.control.after).position_m.rms, 3e-4);
   const Pose expected = moved * simulated.session().X_MB;
   EXPECT_LT((result.after_frames.X_MB[1].p - expected.p).norm(), 3e-3);
 }
 
-// The control set reports and never chooses: spoiling its measurements changes no identified value by a bit.
+// The control set reports and never chooses: spoiling its measurements changes no identified value
+// by a bit.
 TEST(Calibrate, ControlRowsDoNotMoveTheResult) {
   const Simulated simulated(testing::Ur10(), AnyTarget(), Noise(1e-4, 1e-4));
   CalibrationProblem problem = simulated.Problem();
@@ -204,15 +216,16 @@ TEST(Calibrate, ControlRowsDoNotMoveTheResult) {
   EXPECT_EQ(spoiled.verdict.decision, Decision::kDoNotApply);
 }
 
-// A calibration carried to a session of another placement and target of the same robot, and a fault when that session
-// is too short to place instrument and target.
+// A calibration carried to a session of another placement and target of the same robot, and a fault
+// when that session is too short to place instrument and target.
 TEST(Evaluate, AnotherSessionOfTheSameRobot) {
   SimulateOptions options = Noise(1e-4, 1e-4);
   const Simulated first(testing::Ur10(), AnyTarget(), options);
   const CalibrationResult result = MustCalibrate(first.Problem());
   const Simulated same(testing::Ur10(), AnyTarget(), options);
   CalibrationProblem second = same.Problem(ObservationKind::kPose, 0);
-  const Pose moved{ExpRotation<double>({0.5, -0.2, 1.3}), {1, -2, 0.5}}, other{ExpRotation<double>({1, 0, 0}), {0.1, 0, 0.05}};
+  const Pose moved{ExpRotation<double>({0.5, -0.2, 1.3}), {1, -2, 0.5}},
+      other{ExpRotation<double>({1, 0, 0}), {0.1, 0, 0.05}};
   for (Reading& reading : second.readings) reading.X_MT = moved * reading.X_MT * other;
   const auto evaluation = Evaluate(second, result.identification.estimate.lambda, {}, {});
   ASSERT_TRUE(evaluation.ok()) << evaluation.status();
@@ -220,9 +233,11 @@ TEST(Evaluate, AnotherSessionOfTheSameRobot) {
   EXPECT_LT(PoseStatisticsOf(evaluation->set.after).position_m.rms, 3e-4);
   EXPECT_GT(PoseStatisticsOf(evaluation->set.before).position_m.rms, 8e-4);
   second.readings.resize(1);
-  EXPECT_EQ(Evaluate(second, result.identification.estimate.lambda, {}, {}).status().code(), absl::StatusCode::kFailedPrecondition);
+  EXPECT_EQ(Evaluate(second, result.identification.estimate.lambda, {}, {}).status().code(),
+            absl::StatusCode::kFailedPrecondition);
   second.readings.clear();
-  EXPECT_EQ(Evaluate(second, result.identification.estimate.lambda, {}, {}).status().code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(Evaluate(second, result.identification.estimate.lambda, {}, {}).status().code(),
+            absl::StatusCode::kInvalidArgument);
 }
 
 // A coupled robot: joint 3 of the chain is J2 + J3 of the controller.
@@ -235,7 +250,8 @@ TEST(Calibrate, JointMapIsApplied) {
   const auto robot = Robot::Create(plain.joints(), plain.chain(), map);
   ASSERT_TRUE(robot.ok());
   const Simulated simulated(*robot, AnyTarget(), Noise(0, 0, 40));
-  EXPECT_LT(PoseStatisticsOf(MustCalibrate(simulated.Problem()).control.after).position_m.max, 1e-9);
+  EXPECT_LT(PoseStatisticsOf(MustCalibrate(simulated.Problem()).control.after).position_m.max,
+            1e-9);
 }
 
 }  // namespace

@@ -13,10 +13,18 @@ ParameterSet Names(const std::vector<Parameter>& parameters) {
   return set;
 }
 
-Parameter Angle(const std::string& name) { return {name, ParameterGroup::kInternal, ParameterRole::kAngle, true}; }
-Parameter Offset(const std::string& name) { return {name, ParameterGroup::kInternal, ParameterRole::kJointOffset, true}; }
-Parameter Length(const std::string& name) { return {name, ParameterGroup::kInternal, ParameterRole::kLength, false}; }
-Parameter Base(const std::string& name) { return {name, ParameterGroup::kBase, ParameterRole::kExternal, false}; }
+Parameter Angle(const std::string& name) {
+  return {name, ParameterGroup::kInternal, ParameterRole::kAngle, true};
+}
+Parameter Offset(const std::string& name) {
+  return {name, ParameterGroup::kInternal, ParameterRole::kJointOffset, true};
+}
+Parameter Length(const std::string& name) {
+  return {name, ParameterGroup::kInternal, ParameterRole::kLength, false};
+}
+Parameter Base(const std::string& name) {
+  return {name, ParameterGroup::kBase, ParameterRole::kExternal, false};
+}
 
 Eigen::MatrixXd RandomColumns(int rows, int columns) {
   Random random(61);
@@ -25,12 +33,14 @@ Eigen::MatrixXd RandomColumns(int rows, int columns) {
   return J;
 }
 
-// Of equals the preferred kind stays, not the one that stands first: offsets before lengths before angles, frames before all.
+// Of equals the preferred kind stays, not the one that stands first: offsets before lengths before
+// angles, frames before all.
 TEST(Identifiable, OrderOfPreference) {
   Eigen::MatrixXd J = RandomColumns(40, 4);
   J.col(1) = J.col(0);
   J.col(3) = J.col(2);
-  const IdentifiableSet set = Identifiable(J, Names({Angle("dbeta1"), Offset("dq1"), Length("da1"), Base("base.x")}), {});
+  const IdentifiableSet set =
+      Identifiable(J, Names({Angle("dbeta1"), Offset("dq1"), Length("da1"), Base("base.x")}), {});
   EXPECT_EQ(set.active, (std::vector<int>{1, 3}));
   ASSERT_EQ(set.redundancies.size(), 2u);
 }
@@ -51,7 +61,8 @@ TEST(Identifiable, RelationIsExact) {
   EXPECT_NE(ReasonText(relation, names).find("at these poses"), std::string::npos);
 }
 
-// A column of size 1e-14 beside others of 1e3 is a gauge, not a direction: scaled to norm 1 it would look independent.
+// A column of size 1e-14 beside others of 1e3 is a gauge, not a direction: scaled to norm 1 it
+// would look independent.
 TEST(Identifiable, GaugeGoesOutBeforeScaling) {
   Eigen::MatrixXd J = RandomColumns(40, 3);
   J.col(1) *= 1e-17;
@@ -74,13 +85,15 @@ TEST(Identifiable, DependenceThreshold) {
   EXPECT_EQ(Identifiable(J, names, options).active.size(), 3u);
 }
 
-// A whitened column of norm k means a standard deviation of 1 / k: 30 per m is 33 mm, too weak; 100 is 10 mm, kept.
-// 20 per rad is 2.9 deg, too weak; 50 is 1.1 deg, kept. Frames are never dropped for weakness.
+// A whitened column of norm k means a standard deviation of 1 / k: 30 per m is 33 mm, too weak; 100
+// is 10 mm, kept. 20 per rad is 2.9 deg, too weak; 50 is 1.1 deg, kept. Frames are never dropped
+// for weakness.
 TEST(Identifiable, WeakDirectionsStayNominal) {
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(10, 5);
   const double norms[] = {30, 100, 20, 50, 1};
   for (int i = 0; i < 5; ++i) J(i, i) = norms[i];
-  const ParameterSet names = Names({Length("da1"), Length("da2"), Angle("dbeta1"), Angle("dbeta2"), Base("base.x")});
+  const ParameterSet names =
+      Names({Length("da1"), Length("da2"), Angle("dbeta1"), Angle("dbeta2"), Base("base.x")});
   const IdentifiableSet set = Identifiable(J, names, {});
   EXPECT_EQ(set.active, (std::vector<int>{1, 3, 4}));
   for (const NullRelation& relation : set.redundancies) {
@@ -100,9 +113,11 @@ TEST(Identifiable, ConditionOfScaledColumns) {
   EXPECT_NEAR(Identifiable(J, Names({Offset("dq1"), Offset("dq2")}), {}).condition, 2, 1e-12);
 }
 
-// Fewer rows than candidates must not read outside the matrix, and keeps at most as many as there are rows.
+// Fewer rows than candidates must not read outside the matrix, and keeps at most as many as there
+// are rows.
 TEST(Identifiable, FewRows) {
-  const IdentifiableSet set = Identifiable(RandomColumns(2, 4), Names({Offset("a"), Offset("b"), Offset("c"), Offset("d")}), {});
+  const IdentifiableSet set = Identifiable(
+      RandomColumns(2, 4), Names({Offset("a"), Offset("b"), Offset("c"), Offset("d")}), {});
   EXPECT_EQ(set.active, (std::vector<int>{0, 1}));
   EXPECT_EQ(set.redundancies.size(), 2u);
 }
@@ -115,7 +130,8 @@ TEST(RelationText, NamesFrames) {
   const IdentifiableSet set = Identifiable(J, names, {});
   ASSERT_EQ(set.redundancies.size(), 1u);
   EXPECT_EQ(RelationText(set.redundancies[0], names), "dq1 = a motion of the base frame");
-  EXPECT_NE(ReasonText(set.redundancies[0], names).find("that frame takes it up"), std::string::npos);
+  EXPECT_NE(ReasonText(set.redundancies[0], names).find("that frame takes it up"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Start values from any placement of instrument and target. Would catch a start that needs a guess, that needs turning
-// tools, or that mixes up frames of several placements.
+// Start values from any placement of instrument and target. Would catch a start that needs a guess,
+// that needs turning tools, or that mixes up frames of several placements.
 #include "core/identification/start_values.h"
 
 #include <gtest/gtest.h>
@@ -22,14 +22,15 @@ Pose RandomPose(Random* random, double reach) {
   return {ExpRotation<double>(r), RandomVector(3, reach, random)};
 }
 
-Reading ExactReading(const Problem& problem, const Estimate& truth, ObservationKind kind, int placement, int target,
-                     const Eigen::VectorXd& q) {
+Reading ExactReading(const Problem& problem, const Estimate& truth, ObservationKind kind,
+                     int placement, int target, const Eigen::VectorXd& q) {
   Reading reading;
   reading.q = q;
   reading.kind = kind;
   reading.placement = placement;
   reading.target = target;
-  reading.X_MT = truth.X_MB[placement] * Forward(problem.model->chain, q, truth.lambda) * truth.X_FT[target];
+  reading.X_MT =
+      truth.X_MB[placement] * Forward(problem.model->chain, q, truth.lambda) * truth.X_FT[target];
   reading.axis_M = reading.X_MT.R.col(2);
   return reading;
 }
@@ -40,7 +41,8 @@ Estimate MustFind(const Problem& problem, const StartOptions& options = {}) {
   return *std::move(start);
 }
 
-// Thirty placements and targets anywhere, 12 readings each, for every kind of measurement: exact data must be met exactly.
+// Thirty placements and targets anywhere, 12 readings each, for every kind of measurement: exact
+// data must be met exactly.
 class StartValues : public ::testing::TestWithParam<ObservationKind> {};
 
 TEST_P(StartValues, AnyPlacementOfInstrumentAndTarget) {
@@ -51,7 +53,9 @@ TEST_P(StartValues, AnyPlacementOfInstrumentAndTarget) {
     Estimate truth = NominalEstimate(problem);
     truth.X_MB[0] = RandomPose(&random, 3);
     truth.X_FT[0] = RandomPose(&random, 0.4);
-    for (int i = 0; i < 12; ++i) problem.readings.push_back(ExactReading(problem, truth, GetParam(), 0, 0, RandomVector(6, 1.5, &random)));
+    for (int i = 0; i < 12; ++i)
+      problem.readings.push_back(
+          ExactReading(problem, truth, GetParam(), 0, 0, RandomVector(6, 1.5, &random)));
     const Estimate start = MustFind(problem);
     EXPECT_LT(Distance(start.X_MB[0], truth.X_MB[0]), 1e-6) << seed;
     EXPECT_LT((start.X_FT[0].p - truth.X_FT[0].p).norm(), 1e-6) << seed;
@@ -65,10 +69,12 @@ TEST_P(StartValues, AnyPlacementOfInstrumentAndTarget) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, StartValues,
-                         ::testing::Values(ObservationKind::kPose, ObservationKind::kPoint, ObservationKind::kPointAxis),
+                         ::testing::Values(ObservationKind::kPose, ObservationKind::kPoint,
+                                           ObservationKind::kPointAxis),
                          [](const auto& info) { return std::string(KindOf(info.param).name); });
 
-// Nearly constant tool orientation, a real robot's error: linear starts end at 2.5 to 6 mm, the right minimum is below.
+// Nearly constant tool orientation, a real robot's error: linear starts end at 2.5 to 6 mm, the
+// right minimum is below.
 TEST(StartValuesHard, NearlyConstantOrientation) {
   const Robot robot = testing::Ur10();
   const Model model = ModifiedIncremental(robot, ModelExtent::kInternal);
@@ -82,18 +88,21 @@ TEST(StartValuesHard, NearlyConstantOrientation) {
     Eigen::VectorXd q = RandomVector(6, 1.2, &random);
     q(3) = -1.57 - q(1) - q(2) + 0.02 * random.Normal();  // tool down
     q(4) = -1.57 + 0.02 * random.Normal();
-    q(5) = q(0) + 0.02 * random.Normal();                  // and not turning
+    q(5) = q(0) + 0.02 * random.Normal();  // and not turning
     problem.readings.push_back(ExactReading(problem, truth, ObservationKind::kPose, 0, 0, q));
   }
   const Estimate start = MustFind(problem);
   double squares = 0;
   for (const Reading& reading : problem.readings) {
-    squares += (reading.X_MT.p - start.X_MB[0] * Forward(model.chain, reading.q, start.lambda) * start.X_FT[0].p).squaredNorm();
+    squares += (reading.X_MT.p -
+                start.X_MB[0] * Forward(model.chain, reading.q, start.lambda) * start.X_FT[0].p)
+                   .squaredNorm();
   }
   EXPECT_LT(std::sqrt(squares / 100), 1.5e-3);
 }
 
-// Three placements and two targets; one placement has three readings only, one pair none: frames follow from each other.
+// Three placements and two targets; one placement has three readings only, one pair none: frames
+// follow from each other.
 TEST(StartValuesHard, SeveralPlacementsAndTargets) {
   const Model model = ModifiedIncremental(testing::Panda(), ModelExtent::kInternal);
   Random random(82);
@@ -105,7 +114,8 @@ TEST(StartValuesHard, SeveralPlacementsAndTargets) {
   for (int p = 0; p < 3; ++p) {
     for (int t = 0; t < 2; ++t) {
       for (int i = 0; i < counts[p][t]; ++i) {
-        problem.readings.push_back(ExactReading(problem, truth, ObservationKind::kPose, p, t, RandomVector(7, 1, &random)));
+        problem.readings.push_back(ExactReading(problem, truth, ObservationKind::kPose, p, t,
+                                                RandomVector(7, 1, &random)));
       }
     }
   }
@@ -122,7 +132,9 @@ TEST(StartValuesHard, KnownFramesStay) {
   Estimate truth = NominalEstimate(problem);
   truth.X_MB = {RandomPose(&random, 3), RandomPose(&random, 3)};
   truth.X_FT[0] = RandomPose(&random, 0.2);
-  for (int i = 0; i < 3; ++i) problem.readings.push_back(ExactReading(problem, truth, ObservationKind::kPoint, 1, 0, RandomVector(6, 1, &random)));
+  for (int i = 0; i < 3; ++i)
+    problem.readings.push_back(
+        ExactReading(problem, truth, ObservationKind::kPoint, 1, 0, RandomVector(6, 1, &random)));
   StartOptions options;
   options.known = truth;
   options.base_known = {true, false};

@@ -9,16 +9,20 @@ namespace truepose {
 namespace {
 
 // Readings of a robot that is exact, with noise of the given size.
-Problem NoisyProblem(const Model& model, int readings, double position_sd, double rotation_sd, const Eigen::Vector3d& stated) {
+Problem NoisyProblem(const Model& model, int readings, double position_sd, double rotation_sd,
+                     const Eigen::Vector3d& stated) {
   Problem problem{&model, {}, {""}, {""}};
   const Estimate estimate = NominalEstimate(problem);
   Random random(71);
-  const auto noise = [&](double sd) { return Eigen::Vector3d(sd * random.Normal(), sd * random.Normal(), sd * random.Normal()); };
+  const auto noise = [&](double sd) {
+    return Eigen::Vector3d(sd * random.Normal(), sd * random.Normal(), sd * random.Normal());
+  };
   for (int i = 0; i < readings; ++i) {
     Reading reading;
     reading.q = testing::RandomVector(6, 1.5, &random);
     reading.X_MT = Predict(problem, reading, estimate);
-    const Eigen::Vector3d stated_noise(stated.x() * random.Normal(), stated.y() * random.Normal(), stated.z() * random.Normal());
+    const Eigen::Vector3d stated_noise(stated.x() * random.Normal(), stated.y() * random.Normal(),
+                                       stated.z() * random.Normal());
     reading.X_MT.p += noise(position_sd) + stated_noise;
     reading.X_MT.R = ExpRotation<double>(noise(rotation_sd)) * reading.X_MT.R;
     reading.position_sd_m = stated;
@@ -29,23 +33,27 @@ Problem NoisyProblem(const Model& model, int readings, double position_sd, doubl
 
 const std::vector<int> kFrames = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
 
-// 500 readings give the deviation to 2 %; stated scatter is taken off, whatever the weights were before.
+// 500 readings give the deviation to 2 %; stated scatter is taken off, whatever the weights were
+// before.
 TEST(Weights, ModelErrorIsWhatTheStatedScatterLeaves) {
   const Model model = ModifiedIncremental(testing::Ur10(), ModelExtent::kInternal);
   const Problem problem = NoisyProblem(model, 500, 4e-4, 6e-4, Eigen::Vector3d(1e-4, 3e-4, 6e-4));
   ModelError error{1e-3, 1e-2};
-  for (int round = 0; round < 3; ++round) error = EstimateModelError(problem, NominalEstimate(problem), {}, error);
+  for (int round = 0; round < 3; ++round)
+    error = EstimateModelError(problem, NominalEstimate(problem), {}, error);
   EXPECT_NEAR(error.position_sd_m, 4e-4, 2e-5);
   EXPECT_NEAR(error.rotation_sd_rad, 6e-4, 3e-5);
 }
 
-// Six readings: 36 rows, of which 12 parameters of frames take a third. Without their share the estimate is too small by
-// sqrt(1 - 12/36) when the residuals are those after the fit; here they are not fitted, so it is too large by the inverse.
+// Six readings: 36 rows, of which 12 parameters of frames take a third. Without their share the
+// estimate is too small by sqrt(1 - 12/36) when the residuals are those after the fit; here they
+// are not fitted, so it is too large by the inverse.
 TEST(Weights, ParametersTakeTheirShare) {
   const Model model = ModifiedIncremental(testing::Ur10(), ModelExtent::kInternal);
   const Problem problem = NoisyProblem(model, 6, 4e-4, 6e-4, Eigen::Vector3d::Zero());
   const Estimate at = NominalEstimate(problem);
-  const ModelError without = EstimateModelError(problem, at, {}, {}), with = EstimateModelError(problem, at, kFrames, {});
+  const ModelError without = EstimateModelError(problem, at, {}, {}),
+                   with = EstimateModelError(problem, at, kFrames, {});
   const double share_p = 18 * (1 - std::pow(without.position_sd_m / with.position_sd_m, 2));
   const double share_r = 18 * (1 - std::pow(without.rotation_sd_rad / with.rotation_sd_rad, 2));
   EXPECT_NEAR(share_p + share_r, 12, 1e-6);
@@ -55,7 +63,8 @@ TEST(Weights, StatedScatterAloneExplains) {
   const Model model = ModifiedIncremental(testing::Ur10(), ModelExtent::kInternal);
   Problem problem = NoisyProblem(model, 100, 1e-5, 1e-5, Eigen::Vector3d::Zero());
   for (Reading& reading : problem.readings) reading.position_sd_m.setConstant(1e-3);
-  EXPECT_NEAR(EstimateModelError(problem, NominalEstimate(problem), {}, {}).position_sd_m, 1e-7, 1e-12);
+  EXPECT_NEAR(EstimateModelError(problem, NominalEstimate(problem), {}, {}).position_sd_m, 1e-7,
+              1e-12);
 }
 
 // Exact data must not divide by zero.
@@ -79,7 +88,8 @@ TEST(Weights, DeviationsAddInSquares) {
   EXPECT_EQ(StandardDeviations(reading, {}).size(), 3);
 }
 
-// Rows, deviations and columns of the stacked system belong together: a row's Jacobian is that of its own reading.
+// Rows, deviations and columns of the stacked system belong together: a row's Jacobian is that of
+// its own reading.
 TEST(Weights, WhitenedSystemStacksReadings) {
   const Model model = ModifiedIncremental(testing::Ur10(), ModelExtent::kInternal);
   Problem problem = NoisyProblem(model, 3, 1e-3, 1e-3, Eigen::Vector3d::Zero());

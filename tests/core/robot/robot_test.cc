@@ -13,7 +13,8 @@ namespace {
 
 using testing::kDeg;
 
-// A standard D&H link by hand: theta = 90, d = 2, a = 3, alpha = 90, so x is carried to y and the end is at (0, 3, 2).
+// A standard D&H link by hand: theta = 90, d = 2, a = 3, alpha = 90, so x is carried to y and the
+// end is at (0, 3, 2).
 TEST(Dh, StandardLink) {
   const Chain chain = ChainFromStandardDh({{90 * kDeg, 2, 3, 90 * kDeg}}, {JointType::kRevolute});
   const double q = 0;
@@ -37,7 +38,8 @@ TEST(Dh, PrismaticJointMovesD) {
   EXPECT_LT((Forward<double>(chain, &q, nullptr).p - Eigen::Vector3d(0, 0, 0.75)).norm(), 1e-15);
 }
 
-// The UR10's zero pose, from its data sheet: stretched along -x, flange at y = -(163.941 + 92.2), z = 127.3 - 115.7.
+// The UR10's zero pose, from its data sheet: stretched along -x, flange at y = -(163.941 + 92.2), z
+// = 127.3 - 115.7.
 TEST(Robot, Ur10AtZero) {
   const Pose X = NominalForward(testing::Ur10(), Eigen::VectorXd::Zero(6));
   EXPECT_LT((X.p - Eigen::Vector3d(-1.1843, -0.256141, 0.0116)).norm(), 1e-12);
@@ -52,7 +54,9 @@ TEST(Robot, JointMapGoesBothWays) {
 
 TEST(Robot, MiddleOfLimits) {
   std::vector<Joint> joints = {{"a", JointType::kRevolute, -1, 2}, {"b"}};
-  const auto robot = Robot::Create(joints, ChainFromStandardDh({{}, {0, 0, 1, 0}}, {JointType::kRevolute, JointType::kRevolute}), JointMap::Identity(2));
+  const auto robot = Robot::Create(
+      joints, ChainFromStandardDh({{}, {0, 0, 1, 0}}, {JointType::kRevolute, JointType::kRevolute}),
+      JointMap::Identity(2));
   ASSERT_TRUE(robot.ok());
   EXPECT_EQ(robot->MiddleOfLimits(), Eigen::Vector2d(0.5, 0));
 }
@@ -61,12 +65,16 @@ std::vector<Fault> FaultsWith(std::vector<Joint> joints, const Chain& chain, con
   return FaultsOf(Robot::Create(std::move(joints), chain, map).status());
 }
 
-ElementaryTransform Moving(Motion motion, Axis axis, int joint) { return {motion, axis, 0, joint, -1}; }
+ElementaryTransform Moving(Motion motion, Axis axis, int joint) {
+  return {motion, axis, 0, joint, -1};
+}
 
 // Each fault of Create, with its field; two in one robot come together.
 TEST(RobotFaults, AllAtOnce) {
-  const Chain chain = {Moving(Motion::kRotation, Axis::kZ, 1), Moving(Motion::kTranslation, Axis::kX, 0)};
-  const auto faults = FaultsWith({{"a", JointType::kRevolute, 2, 1}, {"b"}}, chain, JointMap::Identity(2));
+  const Chain chain = {Moving(Motion::kRotation, Axis::kZ, 1),
+                       Moving(Motion::kTranslation, Axis::kX, 0)};
+  const auto faults =
+      FaultsWith({{"a", JointType::kRevolute, 2, 1}, {"b"}}, chain, JointMap::Identity(2));
   ASSERT_EQ(faults.size(), 4u);
   EXPECT_EQ(faults[0].field, "joints[0].lower");
   EXPECT_EQ(faults[1].field, "geometry.chain.elements[0]");
@@ -74,13 +82,15 @@ TEST(RobotFaults, AllAtOnce) {
 }
 
 TEST(RobotFaults, JointCount) {
-  const auto faults = FaultsWith({{"a"}, {"b"}}, {Moving(Motion::kRotation, Axis::kZ, 0)}, JointMap::Identity(2));
+  const auto faults =
+      FaultsWith({{"a"}, {"b"}}, {Moving(Motion::kRotation, Axis::kZ, 0)}, JointMap::Identity(2));
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_EQ(faults[0].field, "geometry");
 }
 
 TEST(RobotFaults, WrongKindOfMotion) {
-  const auto faults = FaultsWith({{"a", JointType::kPrismatic}}, {Moving(Motion::kRotation, Axis::kZ, 0)}, JointMap::Identity(1));
+  const auto faults = FaultsWith({{"a", JointType::kPrismatic}},
+                                 {Moving(Motion::kRotation, Axis::kZ, 0)}, JointMap::Identity(1));
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_EQ(faults[0].found, "a rotation");
 }
@@ -89,17 +99,22 @@ TEST(RobotFaults, NotFinite) {
   Chain chain = {Moving(Motion::kRotation, Axis::kZ, 0)};
   chain[0].constant = NAN;
   EXPECT_EQ(FaultsWith({{"a"}}, chain, JointMap::Identity(1)).size(), 1u);
-  EXPECT_EQ(FaultsWith({{"a", JointType::kRevolute, NAN, 1}}, {Moving(Motion::kRotation, Axis::kZ, 0)}, JointMap::Identity(1)).size(), 1u);
+  EXPECT_EQ(FaultsWith({{"a", JointType::kRevolute, NAN, 1}},
+                       {Moving(Motion::kRotation, Axis::kZ, 0)}, JointMap::Identity(1))
+                .size(),
+            1u);
 }
 
 TEST(RobotFaults, JointMap) {
   const Chain chain = {Moving(Motion::kRotation, Axis::kZ, 0)};
   EXPECT_EQ(FaultsWith({{"a"}}, chain, JointMap::Identity(2)).size(), 2u);
-  EXPECT_EQ(FaultsWith({{"a"}}, chain, {Eigen::MatrixXd::Zero(1, 1), Eigen::VectorXd::Zero(1)}).size(), 1u);
+  EXPECT_EQ(
+      FaultsWith({{"a"}}, chain, {Eigen::MatrixXd::Zero(1, 1), Eigen::VectorXd::Zero(1)}).size(),
+      1u);
 }
 
-// Two parallel prismatic joints one after the other are one joint twice (chapter-notes 7); across a right angle, or with
-// a revolute joint between them, they are fine.
+// Two parallel prismatic joints one after the other are one joint twice (chapter-notes 7); across a
+// right angle, or with a revolute joint between them, they are fine.
 TEST(RobotFaults, ParallelPrismatic) {
   const std::vector<Joint> two = {{"a", JointType::kPrismatic}, {"b", JointType::kPrismatic}};
   const Chain parallel = {Moving(Motion::kTranslation, Axis::kZ, 0), Translation(Axis::kX, 0.3),
@@ -115,19 +130,25 @@ TEST(RobotFaults, ParallelPrismatic) {
   EXPECT_TRUE(Robot::Create(two, square, JointMap::Identity(2)).ok());
 }
 
-// The nominal is rewritten so that each A_i begins with its joint motion: at zero parameters every pose is as before,
-// also for joints about x and y.
+// The nominal is rewritten so that each A_i begins with its joint motion: at zero parameters every
+// pose is as before, also for joints about x and y.
 TEST(ModifiedIncremental, ZeroParametersAreTheNominal) {
   Random random(51);
-  const Chain chain = {Translation(Axis::kZ, 0.3), Moving(Motion::kRotation, Axis::kX, 0), Translation(Axis::kY, 0.4),
-                       Moving(Motion::kRotation, Axis::kY, 1), Moving(Motion::kTranslation, Axis::kX, 2), Rotation(Axis::kZ, 0.2)};
-  const auto robot = Robot::Create({{"a"}, {"b"}, {"c", JointType::kPrismatic}}, chain, JointMap::Identity(3));
+  const Chain chain = {Translation(Axis::kZ, 0.3),
+                       Moving(Motion::kRotation, Axis::kX, 0),
+                       Translation(Axis::kY, 0.4),
+                       Moving(Motion::kRotation, Axis::kY, 1),
+                       Moving(Motion::kTranslation, Axis::kX, 2),
+                       Rotation(Axis::kZ, 0.2)};
+  const auto robot =
+      Robot::Create({{"a"}, {"b"}, {"c", JointType::kPrismatic}}, chain, JointMap::Identity(3));
   ASSERT_TRUE(robot.ok()) << robot.status();
   for (ModelExtent extent : {ModelExtent::kInternal, ModelExtent::kComplete}) {
     const Model model = ModifiedIncremental(*robot, extent);
     for (int draw = 0; draw < 10; ++draw) {
       const Eigen::VectorXd q = testing::RandomVector(3, 1, &random);
-      const Pose a = NominalForward(*robot, q), b = Forward(model.chain, q, Eigen::VectorXd::Zero(model.parameters.size()));
+      const Pose a = NominalForward(*robot, q),
+                 b = Forward(model.chain, q, Eigen::VectorXd::Zero(model.parameters.size()));
       EXPECT_LT((a.p - b.p).norm() + (a.R - b.R).norm(), 1e-14);
     }
   }
@@ -142,19 +163,23 @@ TEST(ModifiedIncremental, OffsetEqualsJointMotion) {
     Eigen::VectorXd lambda = Eigen::VectorXd::Zero(model.parameters.size()), moved = q;
     lambda(*model.parameters.Find("dq" + std::to_string(i + 1))) = 0.01;
     moved(i) += 0.01;
-    const Pose a = Forward(model.chain, q, lambda), b = Forward(model.chain, moved, Eigen::VectorXd::Zero(lambda.size()));
+    const Pose a = Forward(model.chain, q, lambda),
+               b = Forward(model.chain, moved, Eigen::VectorXd::Zero(lambda.size()));
     EXPECT_LT((a.p - b.p).norm() + (a.R - b.R).norm(), 1e-15);
   }
 }
 
-// The order inside B_i is Eq. 22's: rotations first. The other order agrees to first order only, so sets would not be
-// exchangeable; this fixes it.
+// The order inside B_i is Eq. 22's: rotations first. The other order agrees to first order only, so
+// sets would not be exchangeable; this fixes it.
 TEST(ModifiedIncremental, RotationsBeforeLengths) {
-  const Model model = ModifiedIncremental(testing::DhRobot({{0, 0, 0, 0}, {0, 0, 0, 0}}, "RR"), ModelExtent::kInternal);
+  const Model model = ModifiedIncremental(testing::DhRobot({{0, 0, 0, 0}, {0, 0, 0, 0}}, "RR"),
+                                          ModelExtent::kInternal);
   Eigen::VectorXd lambda = Eigen::VectorXd::Zero(model.parameters.size());
   lambda(*model.parameters.Find("dbeta1")) = 90 * kDeg;
   lambda(*model.parameters.Find("da1")) = 0.5;
-  EXPECT_LT((Forward(model.chain, Eigen::VectorXd::Zero(2), lambda).p - Eigen::Vector3d(0, 0, -0.5)).norm(), 1e-15);
+  EXPECT_LT((Forward(model.chain, Eigen::VectorXd::Zero(2), lambda).p - Eigen::Vector3d(0, 0, -0.5))
+                .norm(),
+            1e-15);
 }
 
 // Joint i+1 decides about the lengths of B_i (chapter-notes 1).

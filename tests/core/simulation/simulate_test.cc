@@ -12,7 +12,8 @@ SimulatedSession Session(const SimulateOptions& options) {
   return Simulate(robot, ModifiedIncremental(robot, ModelExtent::kInternal), Pose{}, options);
 }
 
-// The same seed is the same session; another noise leaves the robot and its poses as they are drawn first.
+// The same seed is the same session; another noise leaves the robot and its poses as they are drawn
+// first.
 TEST(Simulate, SeedDecides) {
   SimulateOptions options;
   options.poses = 5;
@@ -38,7 +39,8 @@ TEST(Simulate, EncoderResolution) {
   options.encoder_resolution = 3e-4;
   const SimulatedSession coarse = Session(options);
   EXPECT_EQ(fine.readings[0].X_MT.p, coarse.readings[0].X_MT.p);
-  EXPECT_LE((fine.readings[0].q_controller - coarse.readings[0].q_controller).cwiseAbs().maxCoeff(), 1.5e-4 + 1e-12);
+  EXPECT_LE((fine.readings[0].q_controller - coarse.readings[0].q_controller).cwiseAbs().maxCoeff(),
+            1.5e-4 + 1e-12);
 }
 
 // Joints stay in range and limits; errors have the stated size.

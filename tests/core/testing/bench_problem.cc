@@ -12,7 +12,9 @@ namespace {
 
 std::vector<std::vector<double>> ReadTable(const std::string& path) {
   std::ifstream file(path);
-  if (!file) throw std::runtime_error("can't read " + path + "; TRUEPOSE_SHARED names the folder of the measured data");
+  if (!file)
+    throw std::runtime_error("can't read " + path +
+                             "; TRUEPOSE_SHARED names the folder of the measured data");
   std::string line, cell;
   std::getline(file, line);
   std::vector<std::vector<double>> rows;
@@ -38,8 +40,8 @@ Parameters ReadParameters(const std::string& path, int column) {
 }
 
 Chain TrueChain(const Parameters& p, int joints) {
-  Chain chain = {Translation(Axis::kX, p.v[0]), Translation(Axis::kY, p.v[1]), Rotation(Axis::kX, p.v[2]),
-                 Rotation(Axis::kY, p.v[3])};
+  Chain chain = {Translation(Axis::kX, p.v[0]), Translation(Axis::kY, p.v[1]),
+                 Rotation(Axis::kX, p.v[2]), Rotation(Axis::kY, p.v[3])};
   for (int i = 0; i < joints; ++i) {
     const double* link = p.Link(i);
     chain.push_back({Motion::kRotation, Axis::kZ, link[0], i, -1});
@@ -56,7 +58,8 @@ Chain TrueChain(const Parameters& p, int joints) {
 
 Robot NominalRobot(const Parameters& p, int joints) {
   std::vector<DhRow> rows;
-  for (int i = 0; i < joints; ++i) rows.push_back({p.Link(i)[0], p.Link(i)[1], p.Link(i)[2], p.Link(i)[3]});
+  for (int i = 0; i < joints; ++i)
+    rows.push_back({p.Link(i)[0], p.Link(i)[1], p.Link(i)[2], p.Link(i)[3]});
   return DhRobot(rows, std::string(joints, 'R'));
 }
 
@@ -82,8 +85,10 @@ std::string SharedFolder() {
 BenchProblem LoadBench(const std::string& name, int poses, ObservationKind kind) {
   const int joints = name == "arm5" ? 5 : 6;
   const std::string folder = SharedFolder() + "/bench/";
-  BenchProblem problem{NominalRobot(ReadParameters(folder + name + "_params.csv", 1), joints), {},
-                       TrueChain(ReadParameters(folder + name + "_params.csv", 2), joints), joints};
+  BenchProblem problem{NominalRobot(ReadParameters(folder + name + "_params.csv", 1), joints),
+                       {},
+                       TrueChain(ReadParameters(folder + name + "_params.csv", 2), joints),
+                       joints};
   for (const auto& row : ReadTable(folder + name + "_" + std::to_string(poses) + ".csv")) {
     problem.readings.push_back(ReadingOf(row, joints, kind));
     problem.readings.back().id = static_cast<int>(problem.readings.size()) - 1;

@@ -14,9 +14,9 @@ namespace truepose::testing {
 std::string SharedFolder();
 
 struct BenchProblem {
-  Robot robot;                    // nominal, without base and tool
+  Robot robot;  // nominal, without base and tool
   std::vector<Reading> readings;
-  Chain truth;                    // from instrument to target, at the true parameters
+  Chain truth;  // from instrument to target, at the true parameters
   int joints;
 };
 

@@ -8,13 +8,15 @@ namespace {
 
 std::vector<JointType> TypesOf(const std::string& letters) {
   std::vector<JointType> types;
-  for (char letter : letters) types.push_back(letter == 'R' ? JointType::kRevolute : JointType::kPrismatic);
+  for (char letter : letters)
+    types.push_back(letter == 'R' ? JointType::kRevolute : JointType::kPrismatic);
   return types;
 }
 
 Robot RobotOf(const Chain& chain, const std::string& letters) {
   std::vector<Joint> joints;
-  for (JointType type : TypesOf(letters)) joints.push_back({"j" + std::to_string(joints.size() + 1), type});
+  for (JointType type : TypesOf(letters))
+    joints.push_back({"j" + std::to_string(joints.size() + 1), type});
   auto robot = Robot::Create(joints, chain, JointMap::Identity(static_cast<int>(joints.size())));
   if (!robot.ok()) {
     std::cerr << robot.status() << "\n";
@@ -30,26 +32,45 @@ Robot DhRobot(const std::vector<DhRow>& rows, const std::string& types) {
 }
 
 Robot Ur10() {
-  return DhRobot({{0, .1273, 0, 90 * kDeg}, {0, 0, -.612, 0}, {0, 0, -.5723, 0}, {0, .163941, 0, 90 * kDeg},
-                  {0, .1157, 0, -90 * kDeg}, {0, .0922, 0, 0}}, "RRRRRR");
+  return DhRobot({{0, .1273, 0, 90 * kDeg},
+                  {0, 0, -.612, 0},
+                  {0, 0, -.5723, 0},
+                  {0, .163941, 0, 90 * kDeg},
+                  {0, .1157, 0, -90 * kDeg},
+                  {0, .0922, 0, 0}},
+                 "RRRRRR");
 }
 
 Robot Panda() {
-  Chain chain = ChainFromCraigDh({{0, .333, 0, 0}, {0, 0, 0, -90 * kDeg}, {0, .316, 0, 90 * kDeg},
-                                  {0, 0, .0825, 90 * kDeg}, {0, .384, -.0825, -90 * kDeg}, {0, 0, 0, 90 * kDeg},
-                                  {0, 0, .088, 90 * kDeg}}, TypesOf("RRRRRRR"));
+  Chain chain = ChainFromCraigDh({{0, .333, 0, 0},
+                                  {0, 0, 0, -90 * kDeg},
+                                  {0, .316, 0, 90 * kDeg},
+                                  {0, 0, .0825, 90 * kDeg},
+                                  {0, .384, -.0825, -90 * kDeg},
+                                  {0, 0, 0, 90 * kDeg},
+                                  {0, 0, .088, 90 * kDeg}},
+                                 TypesOf("RRRRRRR"));
   chain.push_back(Translation(Axis::kZ, .107));
   return RobotOf(chain, "RRRRRRR");
 }
 
 Robot Stanford() {
-  return DhRobot({{0, .412, 0, 90 * kDeg}, {0, .154, 0, 90 * kDeg}, {0, .4, 0, 0}, {0, 0, 0, -90 * kDeg},
-                  {0, 0, 0, 90 * kDeg}, {0, .263, 0, 0}}, "RRPRRR");
+  return DhRobot({{0, .412, 0, 90 * kDeg},
+                  {0, .154, 0, 90 * kDeg},
+                  {0, .4, 0, 0},
+                  {0, 0, 0, -90 * kDeg},
+                  {0, 0, 0, 90 * kDeg},
+                  {0, .263, 0, 0}},
+                 "RRPRRR");
 }
 
 Robot MeasuringArm() {
-  return DhRobot({{0, .252, 0, 90 * kDeg}, {0, 0, .32, 0}, {90 * kDeg, 0, 0, 90 * kDeg}, {0, .33, 0, 90 * kDeg},
-                  {-90 * kDeg, 0, 0, 90 * kDeg}}, "RRRRR");
+  return DhRobot({{0, .252, 0, 90 * kDeg},
+                  {0, 0, .32, 0},
+                  {90 * kDeg, 0, 0, 90 * kDeg},
+                  {0, .33, 0, 90 * kDeg},
+                  {-90 * kDeg, 0, 0, 90 * kDeg}},
+                 "RRRRR");
 }
 
 std::vector<CountedRobot> CountedRobots() {
@@ -57,14 +78,27 @@ std::vector<CountedRobot> CountedRobots() {
   return {
       {"elbow 6R", Ur10(), 30},
       {"Stanford", Stanford(), 28},
-      {"SCARA RRPR", DhRobot({{0, .3, .25, 0}, {0, 0, .2, 0}, {0, .1, 0, 0}, {0, .05, 0, 0}}, "RRPR"), 20},
-      {"SCARA RRRP", DhRobot({{0, .3, .25, 0}, {0, 0, .2, 0}, {0, .1, 0, 0}, {0, .05, 0, 0}}, "RRRP"), 20},
+      {"SCARA RRPR",
+       DhRobot({{0, .3, .25, 0}, {0, 0, .2, 0}, {0, .1, 0, 0}, {0, .05, 0, 0}}, "RRPR"), 20},
+      {"SCARA RRRP",
+       DhRobot({{0, .3, .25, 0}, {0, 0, .2, 0}, {0, .1, 0, 0}, {0, .05, 0, 0}}, "RRRP"), 20},
       {"gantry PPP", DhRobot({{0, .1, 0, r}, {r, .2, 0, r}, {0, .3, 0, 0}}, "PPP"), 12},
-      {"PPPRRR", DhRobot({{0, .1, 0, r}, {r, .2, 0, r}, {0, .3, 0, 0}, {0, .1, 0, -r}, {0, 0, 0, r}, {0, .1, 0, 0}}, "PPPRRR"), 24},
+      {"PPPRRR",
+       DhRobot({{0, .1, 0, r},
+                {r, .2, 0, r},
+                {0, .3, 0, 0},
+                {0, .1, 0, -r},
+                {0, 0, 0, r},
+                {0, .1, 0, 0}},
+               "PPPRRR"),
+       24},
       {"single R", DhRobot({{0, .1, .2, 0}}, "R"), 10},
       {"planar 3R", DhRobot({{0, 0, .3, 0}, {0, 0, .25, 0}, {0, 0, .1, 0}}, "RRR"), 18},
       {"Panda 7R", Panda(), 34},
-      {"RPPRR", DhRobot({{0, .3, 0, r}, {0, .2, 0, r}, {0, .2, 0, r}, {0, .1, .1, r}, {0, .1, 0, 0}}, "RPPRR"), 22},
+      {"RPPRR",
+       DhRobot({{0, .3, 0, r}, {0, .2, 0, r}, {0, .2, 0, r}, {0, .1, .1, r}, {0, .1, 0, 0}},
+               "RPPRR"),
+       22},
   };
 }
 

@@ -5,7 +5,8 @@
 namespace truepose::testing {
 
 Simulated::Simulated(Robot robot, const Pose& X_FT, const SimulateOptions& options)
-    : robot_(std::move(robot)), model_(ModifiedIncremental(robot_, ModelExtent::kInternal)),
+    : robot_(std::move(robot)),
+      model_(ModifiedIncremental(robot_, ModelExtent::kInternal)),
       session_(Simulate(robot_, model_, X_FT, options)) {}
 
 CalibrationProblem Simulated::Problem(ObservationKind kind, int control_every) const {
@@ -19,12 +20,15 @@ CalibrationProblem Simulated::Problem(ObservationKind kind, int control_every) c
     reading.X_MT = simulated.X_MT;
     reading.axis_M = simulated.X_MT.R.col(2);
     reading.id = static_cast<int>(problem.readings.size());
-    problem.calibrates.push_back(control_every == 0 || reading.id % control_every != control_every - 1);
+    problem.calibrates.push_back(control_every == 0 ||
+                                 reading.id % control_every != control_every - 1);
     problem.readings.push_back(reading);
   }
   return problem;
 }
 
-Pose AnyTarget() { return {ExpRotation<double>({0.4, -1.1, 2.0}), Eigen::Vector3d(0.06, -0.04, 0.15)}; }
+Pose AnyTarget() {
+  return {ExpRotation<double>({0.4, -1.1, 2.0}), Eigen::Vector3d(0.06, -0.04, 0.15)};
+}
 
 }  // namespace truepose::testing

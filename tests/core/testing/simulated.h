@@ -12,7 +12,8 @@ class Simulated {
   Simulated(Robot robot, const Pose& X_FT, const SimulateOptions& options);
 
   // All readings, one placement and target, every `control_every`-th row control (0: none).
-  CalibrationProblem Problem(ObservationKind kind = ObservationKind::kPose, int control_every = 2) const;
+  CalibrationProblem Problem(ObservationKind kind = ObservationKind::kPose,
+                             int control_every = 2) const;
 
   const Robot& robot() const { return robot_; }
   const Model& model() const { return model_; }
