@@ -50,6 +50,9 @@ build() {
 
 truepose() { "$binaries/client/cli/truepose" "$@"; }
 
+# What a command says to do next, this script does itself.
+without_next() { sed '/^Next: /d'; }
+
 stop_server() {
   [ -n "$server_pid" ] || return 0
   kill -TERM "$server_pid" 2>/dev/null || true
@@ -99,7 +102,7 @@ choose_robot() {
     say "No ipa_ur10/series_C.csv in $data: simulating the measuring robot instead (--data DIR names another folder)"
     robot=measuring_robot
     session_file="$directory/simulated.csv"
-    truepose simulate "$root/deploy/examples/measuring_robot.yaml" --poses 162 --seed 11 --output "$session_file"
+    truepose simulate "$root/deploy/examples/measuring_robot.yaml" --poses 162 --seed 11 --output "$session_file" | without_next
   fi
   robot_file="$root/deploy/examples/$robot.yaml"
   targets="$root/deploy/examples/${robot}_targets.csv"
@@ -107,11 +110,11 @@ choose_robot() {
 
 calibrate() {
   say "Registering the robot and importing its measured session"
-  truepose robot add "$robot_file"
+  truepose robot add "$robot_file" | without_next
   name="$(sed -n 's/^robot: *\([a-z0-9-]*\).*/\1/p' "$robot_file")"
   local session
   session="$(cat /proc/sys/kernel/random/uuid)"
-  truepose session import "$session_file" --robot "$name" --session-id "$session"
+  truepose session import "$session_file" --robot "$name" --session-id "$session" | without_next
   say "Calibrating: even rows identify, odd rows control"
   truepose calibrate --robot "$name" --session "$session" --split even-odd --output "$directory/calibration.json"
 }
