@@ -4,8 +4,11 @@
 #include <chrono>
 #include <random>
 #include <thread>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "absl/synchronization/notification.h"
+#include "absl/time/clock.h"
 #include "client/append_readings.h"
 #include "client/pager.h"
 #include "client/wait_for_job.h"
@@ -25,6 +28,8 @@ using testing::ServerProcess;
 using testing::TempDir;
 using testing::Uuid;
 
+constexpr int kBatch = 3;  // readings, small so that a kill falls between many commits
+
 class KillTest : public ::testing::Test {
  protected:
   // Starts trueposed, on the database of the one before.
@@ -37,10 +42,7 @@ class KillTest : public ::testing::Test {
   client::Client NewClient(const ServerProcess& process) const {
     return *client::Client::Connect(process.address(), {.call_timeout = std::chrono::seconds(20)});
   }
-  void Pause(int most_ms) {
-    std::this_thread::sleep_for(
-        std::chrono::milliseconds(std::uniform_int_distribution<int>(0, most_ms)(random_)));
-  }
+  int Draw(int least, int most) { return std::uniform_int_distribution<int>(least, most)(random_); }
 
   TempDir folder_;
   std::mt19937_64 random_{2024};
@@ -60,6 +62,42 @@ std::vector<v1::Reading> StoredReadings(const client::Client& client, const std:
   return readings;
 }
 
+// Uploads until the server is killed, a moment after the acknowledgement that reaches `kill_at`.
+// @returns how many rows were acknowledged.
+int UploadUntilKilled(ServerProcess& process, const std::string& session,
+                      const std::vector<v1::Reading>& readings, int kill_at,
+                      absl::Duration moment) {
+  int acknowledged = 0;
+  absl::Notification reached;
+  std::thread killer([&] {
+    reached.WaitForNotification();
+    absl::SleepFor(moment);
+    process.Kill();
+  });
+  client::AppendOptions options{.batch_size = kBatch, .patience = std::chrono::milliseconds(0)};
+  options.on_progress = [&](int count, int) {
+    acknowledged = count;
+    if (count >= kill_at && !reached.HasBeenNotified()) reached.Notify();
+  };
+  const auto client = client::Client::Connect(process.address());
+  client::AppendReadings(*client, session, readings, options).IgnoreError();
+  if (!reached.HasBeenNotified()) reached.Notify();
+  killer.join();
+  return acknowledged;
+}
+
+// Every row that was acknowledged is there, rows come in whole batches, and each is what was sent.
+void ExpectStored(const std::vector<v1::Reading>& stored, const std::vector<v1::Reading>& sent,
+                  int acknowledged) {
+  ASSERT_GE(static_cast<int>(stored.size()), acknowledged);
+  ASSERT_LE(stored.size(), sent.size());
+  EXPECT_TRUE(stored.size() % kBatch == 0 || stored.size() == sent.size())
+      << "half a batch was stored";
+  for (size_t row = 0; row < stored.size(); ++row) {
+    ASSERT_EQ(stored[row].SerializeAsString(), sent[row].SerializeAsString()) << "row " << row;
+  }
+}
+
 // Would catch an acknowledgement that leaves before its commit, a half-written batch, and a client
 // that can't go on.
 TEST_F(KillTest, NothingAcknowledgedIsLostDuringAnImport) {
@@ -72,29 +110,18 @@ TEST_F(KillTest, NothingAcknowledgedIsLostDuringAnImport) {
   session.mutable_session()->set_robot("robots/arm");
   ASSERT_THAT(NewClient(*process).CreateSession(session), IsOk());
   const std::string name = absl::StrCat("sessions/", Uuid(2));
-  constexpr int kBatch = 3;
-  int acknowledged = 0, kills = 0;
-  while (acknowledged < static_cast<int>(readings.size()) && kills < 12) {
-    std::thread killer([&] {
-      Pause(60);
-      process->Kill();
-    });
-    client::AppendOptions options{.batch_size = kBatch, .patience = std::chrono::milliseconds(0)};
-    options.on_progress = [&](int count, int) { acknowledged = std::max(acknowledged, count); };
-    const auto end = client::AppendReadings(NewClient(*process), name, readings, options);
-    killer.join();
-    ++kills;
+  int stored_before = 0;
+  for (int kill = 0; kill < 12; ++kill) {
+    const int kill_at = stored_before + Draw(1, 100);
+    const int acknowledged =
+        UploadUntilKilled(*process, name, readings, kill_at, absl::Microseconds(Draw(0, 3000)));
     process = Start();
     const auto stored = StoredReadings(NewClient(*process), name);
-    ASSERT_GE(static_cast<int>(stored.size()), acknowledged) << "after kill " << kills;
-    EXPECT_TRUE(stored.size() % kBatch == 0 || stored.size() == readings.size())
-        << "half a batch was stored";
-    for (size_t row = 0; row < stored.size(); ++row) {
-      ASSERT_EQ(stored[row].SerializeAsString(), readings[row].SerializeAsString())
-          << "row " << row;
-    }
+    ASSERT_NO_FATAL_FAILURE(ExpectStored(stored, readings, acknowledged)) << "after kill " << kill;
+    ASSERT_GE(static_cast<int>(stored.size()), stored_before)
+        << "a kill lost rows of an earlier run";
+    stored_before = static_cast<int>(stored.size());
   }
-  EXPECT_GE(kills, 2) << "the import was too quick to be killed";
   EXPECT_THAT(client::AppendReadings(NewClient(*process), name, readings), IsOk());
   v1::SealSessionRequest seal;
   seal.set_name(name);
@@ -114,7 +141,7 @@ TEST_F(KillTest, AJobFinishesThoughItsServerDies) {
     ASSERT_THAT(NewClient(*process).CreateCalibrationJob(JobRequest(job_id, "arm", Uuid(1))),
                 IsOk());
     for (int kill = 0; kill < 2; ++kill) {
-      Pause(80);
+      absl::SleepFor(absl::Milliseconds(Draw(0, 80)));
       process->Kill();
       process = Start();
     }
