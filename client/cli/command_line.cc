@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 
 #include "absl/strings/str_cat.h"
@@ -12,13 +13,24 @@
 
 namespace truepose::cli {
 
+namespace {
+
+std::string ServerByEnvironment() {
+  const char* address = std::getenv("TRUEPOSE_SERVER");
+  return address == nullptr || *address == '\0' ? "127.0.0.1:7878" : address;
+}
+
+}  // namespace
+
 struct CommandLine::Impl {
   explicit Impl(const std::string& summary) : app(summary) {}
 
   CLI::App app;
   std::map<const CLI::App*, Action> actions;
   bool json = false;
-  std::string server = "127.0.0.1:7878";
+  // Read here and not by the parser, which sets the variable anew for every command that has the
+  // option, after it has read the command line.
+  std::string server = ServerByEnvironment();
 };
 
 namespace {
@@ -88,9 +100,10 @@ void Command::Run(Reach reach, Action action) const {
   CommandLine::Impl& impl = *line_->impl_;
   app_->add_flag("--json", impl.json, "Print one JSON object");
   if (reach == Reach::kRemote) {
-    app_->add_option("--server", impl.server, "Where trueposed listens: host:port or unix:/path")
+    app_->add_option(
+            "--server", impl.server,
+            "Where trueposed listens: host:port or unix:/path; TRUEPOSE_SERVER says it, too")
         ->type_name("ADDRESS")
-        ->envname("TRUEPOSE_SERVER")
         ->capture_default_str();
   }
   impl.actions[app_] = std::move(action);

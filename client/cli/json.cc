@@ -62,7 +62,10 @@ absl::Status FromJson(absl::string_view text, absl::string_view file_name,
                       google::protobuf::Message* message) {
   const auto status = google::protobuf::util::JsonStringToMessage(std::string(text), message);
   if (status.ok()) return absl::OkStatus();
-  return FaultStatus(std::string(file_name), std::string(status.message()),
+  // The lines after the first draw an arrow under the place, which no longer fits behind a file's
+  // name.
+  const std::string reason(status.message());
+  return FaultStatus(std::string(file_name), reason.substr(0, reason.find('\n')),
                      absl::StrCat("the JSON of a ", message->GetDescriptor()->name()));
 }
 

@@ -129,6 +129,30 @@ TEST(Unreachable, IsExitCodeFourWithAHint) {
   }
 }
 
+// The variable for one test, whatever it was before.
+class ServerVariable {
+ public:
+  explicit ServerVariable(const char* value) { setenv("TRUEPOSE_SERVER", value, 1); }
+  ~ServerVariable() { unsetenv("TRUEPOSE_SERVER"); }
+};
+
+// Would catch a variable that is not read, or that wins over what was typed and so asks another
+// plant's server.
+TEST(Server, IsWhatWasTypedElseTheVariable) {
+  const ServerVariable variable("unix:/nonexistent/by-variable");
+  EXPECT_THAT(RunCli({"robot", "list"}).err, HasSubstr("unix:/nonexistent/by-variable"));
+  for (std::vector<std::string> line : {std::vector<std::string>{"robot", "list"},
+                                        {"robot", "show", "a"},
+                                        {"job", "list"},
+                                        {"calibration", "show", "a#1"},
+                                        {"session", "show", "a"}}) {
+    line.insert(line.end(), {"--server", "unix:/nonexistent/typed"});
+    const Ran ran = RunCli(line);
+    EXPECT_EQ(ran.code, 4) << ran.err;
+    EXPECT_THAT(ran.err, HasSubstr("unix:/nonexistent/typed"));
+  }
+}
+
 TEST(Unreachable, AddressThatIsNoneIsAFault) {
   EXPECT_EQ(RunCli({"robot", "list", "--server", "nonsense"}).code, 3);
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <ostream>
 
 #include "absl/strings/str_cat.h"
 #include "server/calibration_runner.h"
@@ -14,13 +15,18 @@ namespace truepose::cli {
 namespace {
 
 std::string Measured(const std::string& file) {
-  return absl::StrCat(std::getenv("TRUEPOSE_SHARED"), "/data/", file);
+  const char* shared = std::getenv("TRUEPOSE_SHARED");
+  EXPECT_NE(shared, nullptr) << "TRUEPOSE_SHARED names the folder with data/ of measured robots";
+  return absl::StrCat(shared == nullptr ? "" : shared, "/data/", file);
 }
 
 struct Figures {
-  std::string robot, session, split, identified;
+  std::string name, robot, session, split, identified;
   double rms_mm, rms_deg;
 };
+
+// ctest takes it into the test's name.
+std::ostream& operator<<(std::ostream& out, const Figures& figures) { return out << figures.name; }
 
 class MeasuredTest : public ::testing::TestWithParam<Figures> {};
 
@@ -38,12 +44,15 @@ TEST_P(MeasuredTest, ControlSetReachesTheFigures) {
 // Rotation of series D is not asked for; twice that of series C would be a broken fit.
 INSTANTIATE_TEST_SUITE_P(
     Robots, MeasuredTest,
-    ::testing::Values(
-        Figures{"ur10.yaml", "ipa_ur10/series_C.csv", "even-odd", "30", 0.503, 0.060},
-        Figures{"ur10.yaml", "ipa_ur10/series_C.csv", "spaced:100", "30", 0.512, 0.061},
-        Figures{"ur10.yaml", "ipa_ur10/series_D.csv", "even-odd", "30", 0.430, 0.120},
-        Figures{"franka_panda.yaml", "philnad_panda/poses.csv", "even-odd", "34", 1.50, 0.23}),
-    [](const auto& info) { return absl::StrCat("Run", info.index); });
+    ::testing::Values(Figures{"Ur10SeriesCEvenOdd", "ur10.yaml", "ipa_ur10/series_C.csv",
+                              "even-odd", "30", 0.503, 0.060},
+                      Figures{"Ur10SeriesCSpaced100", "ur10.yaml", "ipa_ur10/series_C.csv",
+                              "spaced:100", "30", 0.512, 0.061},
+                      Figures{"Ur10SeriesDEvenOdd", "ur10.yaml", "ipa_ur10/series_D.csv",
+                              "even-odd", "30", 0.430, 0.120},
+                      Figures{"PandaEvenOdd", "franka_panda.yaml", "philnad_panda/poses.csv",
+                              "even-odd", "34", 1.50, 0.23}),
+    [](const auto& info) { return info.param.name; });
 
 // The same bits through a server: would catch anything lost or rounded on the way of 2,773 rows.
 TEST(Measured, ServerGivesTheSameReport) {

@@ -44,6 +44,26 @@ TEST(WithHint, AddsALineToThatCodeOnly) {
   EXPECT_EQ(ExitCodeOf(WithHint(UsageError("no"), absl::StatusCode::kInvalidArgument, "try")), 2);
 }
 
+// Would catch message fields where people typed options, and a status that loses code or text on
+// the way.
+TEST(RenameFields, ReplacesTheBeginningOfTheFirstThatFits) {
+  FaultList faults;
+  faults.Add("options.split", "'x'", "a split");
+  faults.Add("sessions[0].readings[3]", "1", "2");
+  faults.Add("other", "1", "2");
+  const absl::Status status = RenameFields(
+      faults.ToStatus(absl::StatusCode::kFailedPrecondition),
+      {{"options.split", "--split"}, {"sessions[0].", "a.csv: "}, {"sessions[0]", "b"}});
+  EXPECT_EQ(status.code(), absl::StatusCode::kFailedPrecondition);
+  const std::vector<Fault> renamed = FaultsOf(status);
+  ASSERT_EQ(renamed.size(), 3u);
+  EXPECT_EQ(renamed[0].field, "--split");
+  EXPECT_EQ(renamed[1].field, "a.csv: readings[3]");
+  EXPECT_EQ(renamed[2].field, "other");
+  EXPECT_EQ(RenameFields(absl::InternalError("why"), {{"a", "b"}}).message(), "why");
+  EXPECT_TRUE(RenameFields(absl::OkStatus(), {}).ok());
+}
+
 // Would catch errors on standard output where a reader expects results.
 TEST(PrintError, GoesToErrAndOnlyWithJsonToOut) {
   std::ostringstream out, err;

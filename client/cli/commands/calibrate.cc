@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_replace.h"
 #include "client/cli/commands/commands.h"
 #include "client/cli/inputs.h"
 #include "client/cli/json.h"
@@ -80,14 +81,17 @@ absl::Status AsTyped(const absl::Status& status, const CalibrateOptions& options
                        {"options.nominal_tool", "--tool"},
                        {"options.observe", "--observe"}};
   for (size_t i = 0; i < options.sessions.size(); ++i) {
-    renaming.push_back({absl::StrCat("sessions[", i, "]"), options.sessions[i]});
+    const std::string field = absl::StrCat("sessions[", i, "]");
+    renaming.push_back({field + ".", options.sessions[i] + ": "});
+    renaming.push_back({field, options.sessions[i]});
   }
   return RenameFields(status, renaming);
 }
 
 std::string StageText(const v1::JobProgress& progress) {
-  if (progress.stage() != "identification") return progress.stage();
-  return absl::StrCat(progress.stage(), ", iteration ", progress.iteration());
+  const std::string stage = absl::StrReplaceAll(progress.stage(), {{"_", " "}});
+  if (progress.iteration() == 0) return stage;
+  return absl::StrCat(stage, ", iteration ", progress.iteration());
 }
 
 absl::StatusOr<std::optional<OutputFile>> OpenOutput(const CalibrateOptions& options) {

@@ -77,6 +77,11 @@ std::string KindText(v1::RobotKind kind) {
   return kind == v1::MEASURING ? "measuring" : "industrial";
 }
 
+std::string MakeText(const v1::Nominal& nominal) {
+  return absl::StrCat(nominal.manufacturer(), nominal.manufacturer().empty() ? "" : " ",
+                      nominal.model());
+}
+
 std::string RobotsTable(const v1::ListRobotsResponse& list) {
   if (list.robots().empty()) return "No robots yet. Next: truepose robot add FILE.yaml\n";
   Table table({{"robot", Align::kLeft},
@@ -88,9 +93,7 @@ std::string RobotsTable(const v1::ListRobotsResponse& list) {
                {"added", Align::kLeft}});
   for (const v1::Robot& robot : list.robots()) {
     const v1::Nominal& nominal = robot.nominal_revision().nominal();
-    table.Add({ShortName(robot.name()), KindText(nominal.kind()),
-               absl::StrCat(nominal.manufacturer(), nominal.manufacturer().empty() ? "" : " ",
-                            nominal.model()),
+    table.Add({ShortName(robot.name()), KindText(nominal.kind()), MakeText(nominal),
                nominal.serial(), absl::StrCat(nominal.joints_size()),
                robot.nominal_revision().name(), TimeText(robot.create_time())});
   }
@@ -145,12 +148,15 @@ std::string ToolsTable(const v1::Nominal& nominal) {
 }
 
 std::string RobotText(const v1::Robot& robot) {
-  const v1::Nominal& nominal = robot.nominal_revision().nominal();
-  return absl::StrCat("Robot ", ShortName(robot.name()), ": ", nominal.manufacturer(), " ",
-                      nominal.model(), ", serial ", nominal.serial(), ", ",
-                      KindText(nominal.kind()), "\nNominal ", robot.nominal_revision().name(),
-                      ", SHA-256 ", robot.nominal_revision().digest(), "\n", JointsTable(nominal),
-                      ToolsTable(nominal));
+  const v1::NominalRevision& revision = robot.nominal_revision();
+  const v1::Nominal& nominal = revision.nominal();
+  std::string text =
+      absl::StrCat("Robot ", ShortName(robot.name()), ", ", KindText(nominal.kind()));
+  const std::string make = MakeText(nominal);
+  if (!make.empty()) absl::StrAppend(&text, ", ", make);
+  if (!nominal.serial().empty()) absl::StrAppend(&text, ", serial ", nominal.serial());
+  absl::StrAppend(&text, "\nNominal ", revision.name(), ", SHA-256 ", revision.digest(), "\n");
+  return absl::StrCat(text, JointsTable(nominal), ToolsTable(nominal));
 }
 
 absl::Status Show(const Invocation& invocation, const std::string& name) {

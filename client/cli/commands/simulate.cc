@@ -109,11 +109,12 @@ absl::Status WriteFiles(const Options& options, const v1::Nominal& nominal,
 std::string Text(const Options& options, const convert::Simulation& simulation,
                  const std::string& csv) {
   if (options.output.empty()) return csv;
-  return absl::StrCat(Count(simulation.session.readings_size(), "pose"), " in ", options.output,
-                      options.truth.empty() ? "" : ", the truth in ", options.truth,
-                      "\nNext: truepose calibrate --local --robot ",
-                      options.robot.empty() ? "measuring_robot.yaml" : options.robot, " --session ",
-                      options.output, " --split even-odd\n");
+  return absl::StrCat(
+      Count(simulation.session.readings_size(), "pose"), " in ", options.output,
+      options.truth.empty() ? "" : ", the truth in ", options.truth,
+      "\nNext: truepose calibrate --local --robot ",
+      options.robot.empty() ? "deploy/examples/measuring_robot.yaml" : options.robot, " --session ",
+      options.output, " --split even-odd\n");
 }
 
 absl::Status Simulate(const Invocation& invocation, const Options& options) {
@@ -148,7 +149,7 @@ void AddSimulate(const Command& root) {
   const Command simulate = root.Add("simulate", "Make a session of a robot with known errors");
   simulate.Option("FILE", "", &options->robot, "Robot file")
       .Option("--measuring-robot", "", &options->measuring_robot,
-              "The built-in six-joint measuring arm");
+              "The built-in measuring arm of five joints");
   AddFigures(simulate, options.get());
   simulate
       .Option("--output", "FILE", &options->output, "The session as CSV; default: standard output")

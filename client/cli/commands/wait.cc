@@ -28,10 +28,19 @@ absl::StatusOr<v1::CalibrationJob> Wait(const Invocation& invocation, const clie
   return client::WaitForJob(client, job, options);
 }
 
+// What the run says of its input keeps its code. Any other failure is the job's: codes such as
+// UNAVAILABLE would send people to look for a server that is there.
 absl::StatusCode CodeOf(const v1::JobError& error) {
-  const bool known =
-      error.code() > 0 && error.code() <= static_cast<int>(absl::StatusCode::kUnauthenticated);
-  return known ? static_cast<absl::StatusCode>(error.code()) : absl::StatusCode::kUnknown;
+  const auto code = static_cast<absl::StatusCode>(error.code());
+  switch (code) {
+    case absl::StatusCode::kInvalidArgument:
+    case absl::StatusCode::kFailedPrecondition:
+    case absl::StatusCode::kCancelled:
+    case absl::StatusCode::kInternal:
+      return code;
+    default:
+      return absl::StatusCode::kAborted;
+  }
 }
 
 absl::Status StatusOfError(const v1::JobError& error) {
