@@ -4,9 +4,12 @@
 #include <filesystem>
 #include <fstream>
 
+#include "absl/strings/str_cat.h"
 #include "client/client.h"
 #include "gmock/gmock.h"
 #include "server/exit_codes.h"
+#include "server/store/migrations.h"
+#include "server/store/sql/sqlite.h"
 #include "tests/integration/server_process.h"
 #include "tests/server/testing/examples.h"
 #include "tests/server/testing/expect_status.h"
@@ -114,6 +117,30 @@ TEST_F(ProgramTest, AFileThatIsNoDatabaseIsExitCode5AndStays) {
   EXPECT_EQ(process.Wait(), server::kExitDatabase);
   EXPECT_THAT(process.Output(), ::testing::AllOf(HasSubstr(Database()), HasSubstr("expected")));
   EXPECT_EQ(std::filesystem::file_size(Database()), text.size());
+}
+
+// Brings a database to a form that only a later program knows.
+void MakeNewer(const std::string& path) {
+  const auto connection = store::sql::OpenSqlite(path, store::sql::Access::kWrite);
+  ASSERT_THAT(connection, IsOk());
+  const auto known = store::EmbeddedMigrations();
+  const int next = static_cast<int>(known.size()) + 1;
+  const std::string text =
+      absl::StrCat("-- min_compatible: ", next, "\nCREATE TABLE later (id INTEGER) STRICT;\n");
+  std::vector<store::Migration> newer(known.begin(), known.end());
+  newer.push_back({next, "later", text});
+  ASSERT_THAT(store::Migrate(**connection, newer, store::RealClock(), path), IsOk());
+}
+
+// Would catch an old program that writes into a form it does not understand, after an upgrade was
+// taken back.
+TEST_F(ProgramTest, ADatabaseOfANewerVersionIsExitCode5) {
+  ASSERT_NO_FATAL_FAILURE(MakeNewer(Database()));
+  ServerProcess process(folder_, {"--database", Database()});
+  EXPECT_EQ(process.Wait(), server::kExitDatabase);
+  EXPECT_THAT(process.Output(),
+              ::testing::AllOf(HasSubstr(Database()), HasSubstr("newer"), HasSubstr("expected")));
+  EXPECT_FALSE(std::filesystem::exists(folder_.File("s.sock")));
 }
 
 TEST_F(ProgramTest, AFolderThatIsNotThereIsExitCode5) {
