@@ -26,7 +26,7 @@ absl::Status CheckTargets(const v1::CompensateRequest& request, int joints) {
                  absl::StrCat(joints));
     }
     for (int j = 0; j < target.joints_size(); ++j)
-      CheckFinite(target.joints(j), absl::StrCat(field, ".joints[", j, "]"), &faults);
+      CheckSize(target.joints(j), kLargestJoint, absl::StrCat(field, ".joints[", j, "]"), &faults);
     if (target.has_pose()) CheckPose(target.pose(), field + ".pose", &faults);
   }
   return faults.ToStatus();

@@ -25,10 +25,15 @@ void CheckFinite(double value, const std::string& field, FaultList* faults) {
   if (!std::isfinite(value)) faults->Add(field, absl::StrCat(value), "a finite number");
 }
 
+void CheckSize(double value, double largest, const std::string& field, FaultList* faults) {
+  if (std::abs(value) <= largest) return;
+  faults->Add(field, absl::StrCat(value), absl::StrCat("a finite number of at most ", largest));
+}
+
 void CheckVector(const v1::Vector3& vector, const std::string& field, FaultList* faults) {
-  CheckFinite(vector.x(), field + ".x", faults);
-  CheckFinite(vector.y(), field + ".y", faults);
-  CheckFinite(vector.z(), field + ".z", faults);
+  CheckSize(vector.x(), kLargestLength_m, field + ".x", faults);
+  CheckSize(vector.y(), kLargestLength_m, field + ".y", faults);
+  CheckSize(vector.z(), kLargestLength_m, field + ".z", faults);
 }
 
 void CheckQuaternion(const v1::Quaternion& q, const std::string& field, FaultList* faults) {
@@ -36,9 +41,9 @@ void CheckQuaternion(const v1::Quaternion& q, const std::string& field, FaultLis
 }
 
 void CheckPose(const v1::Pose& pose, const std::string& field, FaultList* faults) {
-  CheckFinite(pose.x_m(), field + ".x_m", faults);
-  CheckFinite(pose.y_m(), field + ".y_m", faults);
-  CheckFinite(pose.z_m(), field + ".z_m", faults);
+  CheckSize(pose.x_m(), kLargestLength_m, field + ".x_m", faults);
+  CheckSize(pose.y_m(), kLargestLength_m, field + ".y_m", faults);
+  CheckSize(pose.z_m(), kLargestLength_m, field + ".z_m", faults);
   CheckUnit({pose.qx(), pose.qy(), pose.qz(), pose.qw()}, field, faults);
 }
 

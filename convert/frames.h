@@ -20,6 +20,13 @@ void CheckVector(const v1::Vector3& vector, const std::string& field, FaultList*
 void CheckQuaternion(const v1::Quaternion& quaternion, const std::string& field, FaultList* faults);
 void CheckFinite(double value, const std::string& field, FaultList* faults);
 
+// Sizes beyond which a reading is no measurement but a slip of units or columns. Far above any
+// instrument (a tracker sees 160 m) and any encoder, and small enough that squares stay finite.
+inline constexpr double kLargestLength_m = 1e4;
+inline constexpr double kLargestJoint = 1e6;  // rad or m
+// A fault for a value that is not finite or larger than `largest`.
+void CheckSize(double value, double largest, const std::string& field, FaultList* faults);
+
 Pose PoseFrom(const v1::Pose& pose);
 v1::Pose ToProto(const Pose& pose);
 Eigen::Vector3d VectorFrom(const v1::Vector3& vector);

@@ -50,7 +50,7 @@ ElementaryTransform ElementFrom(const v1::ElementaryTransform& message, const st
     faults->Add(field + ".joint", "a joint", "constants only");
   if (message.has_joint() && message.joint() < 0)
     faults->Add(field + ".joint", absl::StrCat(message.joint()), "a joint from 0");
-  CheckFinite(message.constant(), field + ".constant", faults);
+  CheckSize(message.constant(), kLargestLength_m, field + ".constant", faults);
   const bool rotation = message.motion() == v1::ElementaryTransform::ROTATION;
   return {rotation ? Motion::kRotation : Motion::kTranslation,
           static_cast<Axis>(std::max(0, message.axis() - 1)), message.constant(),
@@ -67,10 +67,10 @@ std::vector<DhRow> RowsFrom(const v1::DhTable& table, const std::string& field, 
   for (int i = 0; i < table.rows_size(); ++i) {
     const v1::DhRow& row = table.rows(i);
     const std::string path = absl::StrCat(field, ".rows[", i, "]");
-    CheckFinite(row.theta_rad(), path + ".theta_rad", faults);
-    CheckFinite(row.d_m(), path + ".d_m", faults);
-    CheckFinite(row.a_m(), path + ".a_m", faults);
-    CheckFinite(row.alpha_rad(), path + ".alpha_rad", faults);
+    CheckSize(row.theta_rad(), kLargestJoint, path + ".theta_rad", faults);
+    CheckSize(row.d_m(), kLargestLength_m, path + ".d_m", faults);
+    CheckSize(row.a_m(), kLargestLength_m, path + ".a_m", faults);
+    CheckSize(row.alpha_rad(), kLargestJoint, path + ".alpha_rad", faults);
     rows.push_back({row.theta_rad(), row.d_m(), row.a_m(), row.alpha_rad()});
   }
   return rows;

@@ -19,7 +19,7 @@ void CheckJoints(const google::protobuf::RepeatedField<double>& values, int join
                 absl::StrCat(joints, ", one for each joint"));
   }
   for (int i = 0; i < values.size(); ++i)
-    CheckFinite(values[i], absl::StrCat(field, "[", i, "]"), faults);
+    CheckSize(values[i], kLargestJoint, absl::StrCat(field, "[", i, "]"), faults);
 }
 
 void CheckAxis(const v1::Vector3& axis, const std::string& field, FaultList* faults) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
@@ -29,6 +30,22 @@ void JudgeControl(const std::vector<PoseError>& before, const std::vector<PoseEr
   if (!(high < 1)) {
     verdict->decision = Decision::kDoNotApply;
     verdict->reasons.push_back("an improvement on the control set is not proved");
+  }
+}
+
+constexpr double kLargestLength_m = 0.1;
+constexpr double kLargestAngle_rad = 0.1745;
+
+void JudgeSizes(const Eigen::VectorXd& lambda, const ParameterSet& parameters, Verdict* verdict) {
+  for (int i = 0; i < static_cast<int>(lambda.size()); ++i) {
+    const bool angle = parameters[i].is_angle;
+    if (std::abs(lambda(i)) <= (angle ? kLargestAngle_rad : kLargestLength_m)) continue;
+    verdict->decision = Decision::kDoNotApply;
+    const double shown = lambda(i) * (angle ? 180 / std::numbers::pi : 1e3);
+    verdict->reasons.push_back(
+        absl::StrFormat("%s = %.4g %s is no error that a robot has: check the order and units of "
+                        "the joints, and the robot file",
+                        parameters[i].name, shown, angle ? "deg" : "mm"));
   }
 }
 
@@ -62,7 +79,8 @@ Interval BootstrapRatio(const std::vector<PoseError>& before, const std::vector<
   return {ratios[kDraws / 40], ratios[kDraws - 1 - kDraws / 40]};
 }
 
-Verdict Judge(const Identification& identification, const std::vector<PoseError>& control_before,
+Verdict Judge(const Identification& identification, const ParameterSet& parameters,
+              const std::vector<PoseError>& control_before,
               const std::vector<PoseError>& control_after) {
   Verdict verdict;
   verdict.decision = Decision::kApply;
@@ -77,6 +95,7 @@ Verdict Judge(const Identification& identification, const std::vector<PoseError>
   } else {
     JudgeControl(control_before, control_after, &verdict);
   }
+  JudgeSizes(identification.estimate.lambda, parameters, &verdict);
   if (identification.summary.termination != Termination::kConverged) {
     verdict.decision = Decision::kDoNotApply;
     verdict.reasons.push_back(

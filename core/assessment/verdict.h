@@ -26,10 +26,13 @@ struct Interval {
 };
 Interval BootstrapRatio(const std::vector<PoseError>& before, const std::vector<PoseError>& after);
 
-// do_not_apply when the solver did not converge, or when that interval does not lie below 1;
+// do_not_apply when the solver did not converge, when that interval does not lie below 1, or when a
+// correction exceeds 100 mm or 10 deg: no robot is that wrong, so joints, units or robot file are;
 // apply_within_volume when parameters stayed nominal for want of readings, or when there is no
 // control set; apply otherwise.
-Verdict Judge(const Identification& identification, const std::vector<PoseError>& control_before,
+// @param parameters those of the model, beside identification.estimate.lambda.
+Verdict Judge(const Identification& identification, const ParameterSet& parameters,
+              const std::vector<PoseError>& control_before,
               const std::vector<PoseError>& control_after);
 
 }  // namespace truepose

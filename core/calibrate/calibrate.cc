@@ -93,7 +93,8 @@ absl::Status Assess(const CalibrationProblem& problem, const Part& part, const H
   result->calibration = SetOf(problem, result->model, problem.calibrates, b, a);
   result->control = SetOf(problem, result->model, controls, b, a);
   result->complete = SetOf(problem, result->model, all, b, a);
-  result->verdict = Judge(result->identification, result->control.before, result->control.after);
+  result->verdict = Judge(result->identification, result->model.parameters, result->control.before,
+                          result->control.after);
   return absl::OkStatus();
 }
 

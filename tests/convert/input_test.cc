@@ -86,6 +86,20 @@ TEST(Readings, AllFaultsAtOnce) {
                           "sessions[0].readings[4].position_sd_m", "sessions[0].readings[5].axis"));
 }
 
+// A slip of units or columns: 1e300 is finite, but its square is not, and the report would be full
+// of inf.
+TEST(Readings, SizesThatNoInstrumentHas) {
+  v1::CalibrationInput input = SampleInput();
+  auto* readings = input.mutable_sessions(0)->mutable_readings();
+  (*readings)[0].mutable_position_m()->set_x(1e300);
+  (*readings)[1].set_joints_measured(0, -1e18);
+  (*readings)[2].mutable_position_sd_m()->set_z(1e5);
+  EXPECT_THAT(Fields(RunCalibration(input).status()),
+              ElementsAre("sessions[0].readings[0].position_m.x",
+                          "sessions[0].readings[1].joints_measured[0]",
+                          "sessions[0].readings[2].position_sd_m.z"));
+}
+
 TEST(Options, AllFaultsAtOnce) {
   v1::CalibrationInput input = SampleInput();
   input.mutable_options()->set_split("thirds");

@@ -64,21 +64,38 @@ Identification Converged() {
 
 TEST(Verdict, Decisions) {
   const auto better = Errors({0.5, 0.4, 0.6, 0.5}), worse = Errors({1, 1.1, 0.9, 1.2});
-  EXPECT_EQ(Judge(Converged(), worse, better).decision, Decision::kApply);
-  EXPECT_EQ(Judge(Converged(), better, worse).decision, Decision::kDoNotApply);
-  EXPECT_EQ(Judge(Converged(), worse, worse).decision, Decision::kDoNotApply)
+  EXPECT_EQ(Judge(Converged(), {}, worse, better).decision, Decision::kApply);
+  EXPECT_EQ(Judge(Converged(), {}, better, worse).decision, Decision::kDoNotApply);
+  EXPECT_EQ(Judge(Converged(), {}, worse, worse).decision, Decision::kDoNotApply)
       << "no change is no improvement";
-  EXPECT_EQ(Judge(Converged(), {}, {}).decision, Decision::kApplyWithinVolume);
+  EXPECT_EQ(Judge(Converged(), {}, {}, {}).decision, Decision::kApplyWithinVolume);
   Identification dropped = Converged();
   dropped.set.redundancies.push_back({3, {}, true, false});
-  EXPECT_EQ(Judge(dropped, worse, better).decision, Decision::kApplyWithinVolume);
+  EXPECT_EQ(Judge(dropped, {}, worse, better).decision, Decision::kApplyWithinVolume);
   dropped.set.redundancies[0].structural = true;
-  EXPECT_EQ(Judge(dropped, worse, better).decision, Decision::kApply);
-  EXPECT_EQ(Judge(dropped, better, worse).decision, Decision::kDoNotApply);
+  EXPECT_EQ(Judge(dropped, {}, worse, better).decision, Decision::kApply);
+  EXPECT_EQ(Judge(dropped, {}, better, worse).decision, Decision::kDoNotApply);
   Identification unfinished = Converged();
   unfinished.summary.termination = Termination::kIterationLimit;
-  EXPECT_EQ(Judge(unfinished, worse, better).decision, Decision::kDoNotApply);
-  EXPECT_FALSE(Judge(unfinished, worse, better).reasons.empty());
+  EXPECT_EQ(Judge(unfinished, {}, worse, better).decision, Decision::kDoNotApply);
+  EXPECT_FALSE(Judge(unfinished, {}, worse, better).reasons.empty());
+}
+
+// A wrong robot file can improve the control set with a joint that is 40 deg off.
+TEST(Verdict, ImplausibleCorrections) {
+  const auto better = Errors({0.5, 0.4, 0.6, 0.5}), worse = Errors({1, 1.1, 0.9, 1.2});
+  ParameterSet parameters;
+  parameters.Add({"dq1", ParameterGroup::kInternal, ParameterRole::kJointOffset, true});
+  parameters.Add({"da1", ParameterGroup::kInternal, ParameterRole::kLength, false});
+  Identification identification = Converged();
+  identification.estimate.lambda = Eigen::Vector2d(-0.17, 0.09);
+  EXPECT_EQ(Judge(identification, parameters, worse, better).decision, Decision::kApply);
+  identification.estimate.lambda = Eigen::Vector2d(-0.7, 0.09);
+  const Verdict angle = Judge(identification, parameters, worse, better);
+  EXPECT_EQ(angle.decision, Decision::kDoNotApply);
+  EXPECT_NE(angle.reasons.back().find("dq1 = -40.11 deg"), std::string::npos);
+  identification.estimate.lambda = Eigen::Vector2d(0, 0.11);
+  EXPECT_EQ(Judge(identification, parameters, worse, better).decision, Decision::kDoNotApply);
 }
 
 }  // namespace
