@@ -12,11 +12,22 @@ namespace truepose {
 namespace {
 
 constexpr int kDraws = 2000;
+// Below this many rows a bootstrap has next to nothing to draw from.
+constexpr size_t kFewControlRows = 10;
 
 int DroppedForReadings(const IdentifiableSet& set) {
   return static_cast<int>(
       std::count_if(set.redundancies.begin(), set.redundancies.end(),
                     [](const NullRelation& relation) { return !relation.structural; }));
+}
+
+void JudgeControlSize(size_t rows, Verdict* verdict) {
+  if (rows >= kFewControlRows) return;
+  verdict->decision = Decision::kApplyWithinVolume;
+  verdict->reasons.push_back(
+      rows == 0 ? std::string("there is no control set: nothing shows how far the result carries")
+                : absl::StrCat("only ", rows,
+                               " control rows: they show little of how far the result carries"));
 }
 
 void JudgeControl(const std::vector<PoseError>& before, const std::vector<PoseError>& after,
@@ -89,12 +100,8 @@ Verdict Judge(const Identification& identification, const ParameterSet& paramete
     verdict.reasons.push_back(absl::StrCat(
         dropped, " parameters stayed nominal because these readings do not determine them"));
   }
-  if (control_before.empty()) {
-    verdict.decision = Decision::kApplyWithinVolume;
-    verdict.reasons.push_back("there is no control set: nothing shows how far the result carries");
-  } else {
-    JudgeControl(control_before, control_after, &verdict);
-  }
+  JudgeControlSize(control_before.size(), &verdict);
+  if (!control_before.empty()) JudgeControl(control_before, control_after, &verdict);
   JudgeSizes(identification.estimate.lambda, parameters, &verdict);
   if (identification.summary.termination != Termination::kConverged) {
     verdict.decision = Decision::kDoNotApply;

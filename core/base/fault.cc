@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "absl/strings/cord.h"
+#include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "absl/strings/str_replace.h"
@@ -13,6 +14,7 @@ namespace truepose {
 namespace {
 
 constexpr char kPayloadType[] = "type.truepose/faults";
+constexpr char kHiddenType[] = "type.truepose/hidden_faults";
 // A file of the wrong kind has a fault in every cell; a person reads the first screens of them.
 constexpr size_t kMostFaults = 200;
 
@@ -34,6 +36,14 @@ Fault Decode(absl::string_view line) {
   return {Unescape(parts[0]), Unescape(parts[1]), Unescape(parts[2])};
 }
 
+// How many faults a status stands for beside those it carries.
+size_t HiddenFaultsOf(const absl::Status& status) {
+  const auto payload = status.GetPayload(kHiddenType);
+  size_t hidden = 0;
+  if (payload.has_value() && !absl::SimpleAtoi(std::string(*payload), &hidden)) return 0;
+  return hidden;
+}
+
 }  // namespace
 
 std::string ToString(const Fault& fault) {
@@ -50,6 +60,7 @@ void FaultList::Add(Fault fault) { faults_.push_back(std::move(fault)); }
 void FaultList::AddAll(const absl::Status& status, std::string_view prefix) {
   if (status.ok()) return;
   const std::vector<Fault> faults = FaultsOf(status);
+  hidden_ += HiddenFaultsOf(status);
   if (faults.empty()) Add(std::string(prefix), std::string(status.message()), "");
   for (const Fault& fault : faults)
     Add(std::string(prefix) + fault.field, fault.found, fault.expected);
@@ -63,9 +74,11 @@ absl::Status FaultList::ToStatus(absl::StatusCode code) const {
     lines.push_back(ToString(faults_[i]));
     encoded.push_back(Encode(faults_[i]));
   }
-  if (kept < faults_.size()) lines.push_back(absl::StrCat("and ", faults_.size() - kept, " more"));
+  const size_t hidden = faults_.size() - kept + hidden_;
+  if (hidden > 0) lines.push_back(absl::StrCat("and ", hidden, " more"));
   absl::Status status(code, absl::StrJoin(lines, "\n"));
   status.SetPayload(kPayloadType, absl::Cord(absl::StrJoin(encoded, "\n")));
+  if (hidden > 0) status.SetPayload(kHiddenType, absl::Cord(absl::StrCat(hidden)));
   return status;
 }
 

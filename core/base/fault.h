@@ -42,6 +42,7 @@ class FaultList {
 
  private:
   std::vector<Fault> faults_;
+  size_t hidden_ = 0;  // faults of statuses taken over that had been cut already
 };
 
 // A status with one fault.

@@ -140,6 +140,8 @@ absl::StatusOr<EvaluationResult> Evaluate(const CalibrationProblem& problem,
   TRUEPOSE_ASSIGN_OR_RETURN(const Estimate start, FindStart(whole, start_options, hooks));
   TRUEPOSE_ASSIGN_OR_RETURN(const Identification before,
                             FitFrames(whole, start, options.identify, hooks));
+  TRUEPOSE_RETURN_IF_ERROR(
+      CheckFrames(whole, GenericIdentifiable(whole, *problem.robot), before.set));
   TRUEPOSE_RETURN_IF_ERROR(CheckRedundancy(before));
   Estimate with_lambda = before.estimate;
   with_lambda.lambda = lambda;

@@ -13,10 +13,19 @@ namespace {
 
 using Twist = Eigen::Matrix<double, 6, 1>;
 
-// Singular values below this share of the largest are not stepped along: near a singularity joints
-// would run away.
-constexpr double kSingular = 1e-9;
+// Damping as a share of the largest diagonal of the normal matrix: directions whose singular value
+// is below 1e-6 of the others' are hardly stepped along, so joints do not run away near a
+// singularity; elsewhere steps stay Newton's to 1e-12, and what a step lacks the next one makes up.
+constexpr double kDamping = 1e-12;
+// With fewer than six joints not all six coordinates can be met: position comes first, 1 rad counts
+// as 1 mm.
+constexpr double kMetresPerRadian = 1e-3;
 constexpr double kLongestStep = 0.5;  // rad or m; a start from far away comes in pieces
+
+// An arm has up to 16 configurations; starts that arrive do so within some 15 steps.
+constexpr int kMostStarts = 100;
+constexpr int kEnoughArrivals = 12;
+constexpr int kMostInverseIterations = 50;
 
 // What is left to do at X_BF: displacement of the flange point, and rotation vector, both in B.
 Twist Remainder(const Pose& desired, const Pose& X_BF) {
@@ -25,13 +34,25 @@ Twist Remainder(const Pose& desired, const Pose& X_BF) {
   return e;
 }
 
+// The least step of least squares: J'(JJ' + d I)^-1 e where there are joints enough, else (J'J + d
+// I)^-1 J'e.
 Eigen::VectorXd NewtonStep(const Sweep& sweep, const Twist& remainder) {
-  Eigen::MatrixXd J(6, sweep.J_joints.cols());
+  Eigen::Matrix<double, 6, Eigen::Dynamic> J(6, sweep.J_joints.cols());
   for (Eigen::Index i = 0; i < J.cols(); ++i)
     J.col(i) = TwistAt(sweep.X_0E.p, sweep.J_joints.col(i));
-  Eigen::JacobiSVD<Eigen::MatrixXd> svd(J, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  svd.setThreshold(kSingular);
-  Eigen::VectorXd step = svd.solve(remainder);
+  Eigen::VectorXd step;
+  if (J.cols() >= 6) {
+    Eigen::Matrix<double, 6, 6> normal = J * J.transpose();
+    normal.diagonal().array() += kDamping * normal.diagonal().maxCoeff();
+    step = J.transpose() * normal.ldlt().solve(remainder);
+  } else {
+    Twist weighted = remainder;
+    J.bottomRows<3>() *= kMetresPerRadian;
+    weighted.tail<3>() *= kMetresPerRadian;
+    Eigen::MatrixXd normal = J.transpose() * J;
+    normal.diagonal().array() += kDamping * normal.diagonal().maxCoeff();
+    step = normal.ldlt().solve(J.transpose() * weighted);
+  }
   const double largest = step.cwiseAbs().maxCoeff();
   if (largest > kLongestStep) step *= kLongestStep / largest;
   return step;
@@ -53,11 +74,22 @@ bool WithinLimits(const Robot& robot, const Eigen::VectorXd& q_controller) {
   return true;
 }
 
-// Turns revolute joints by whole turns to within half a turn of `near`, where the map leaves each
-// its own.
+// Whether a whole turn of a controller joint leaves the chain's pose as it is: it turns revolute
+// chain joints by whole turns and moves no prismatic one.
+bool WholeTurnIsNoMotion(const Robot& robot, int joint) {
+  if (robot.joints()[joint].type != JointType::kRevolute) return false;
+  for (int row = 0; row < robot.joint_count(); ++row) {
+    const double scale = robot.joint_map().scale(row, joint);
+    if (robot.joints()[row].type == JointType::kRevolute ? scale != std::round(scale) : scale != 0)
+      return false;
+  }
+  return true;
+}
+
+// Turns such joints to within half a turn of `near`.
 Eigen::VectorXd Unwound(const Robot& robot, Eigen::VectorXd q, const Eigen::VectorXd& near) {
   for (int i = 0; i < robot.joint_count(); ++i) {
-    if (robot.joints()[i].type != JointType::kRevolute) continue;
+    if (!WholeTurnIsNoMotion(robot, i)) continue;
     q(i) -= 2 * std::numbers::pi * std::round((q(i) - near(i)) / (2 * std::numbers::pi));
   }
   return q;
@@ -112,12 +144,13 @@ absl::StatusOr<Eigen::VectorXd> NominalInverse(const Robot& robot, const Model& 
                                                const Pose& X_BF, const Eigen::VectorXd& preferred,
                                                const CompensationOptions& options) {
   CompensationOptions patient = options;
-  patient.max_iterations = 100;
+  patient.max_iterations = kMostInverseIterations;
   const Eigen::VectorXd nominal = Eigen::VectorXd::Zero(model.parameters.size());
   Random random(1);
   std::optional<Eigen::VectorXd> best;
   absl::Status last;
-  for (int start = 0; start < 100; ++start) {
+  int arrivals = 0;
+  for (int start = 0; start < kMostStarts && arrivals < kEnoughArrivals; ++start) {
     const Eigen::VectorXd q0 = start == 0 ? preferred : DrawJoints(robot, &random);
     auto solved = SolvePose(model, nominal, X_BF, robot.joint_map().ToChain(q0), patient);
     if (!solved.ok()) {
@@ -126,6 +159,7 @@ absl::StatusOr<Eigen::VectorXd> NominalInverse(const Robot& robot, const Model& 
     }
     const Eigen::VectorXd q = Unwound(robot, robot.joint_map().ToController(solved->q), preferred);
     if (!WithinLimits(robot, q)) continue;
+    ++arrivals;
     if (!best || (q - preferred).norm() < (*best - preferred).norm()) best = q;
     if (start == 0) break;
   }

@@ -46,11 +46,11 @@ absl::StatusOr<Compensated> CompensateJoints(const Model& model, const Eigen::Ve
                                              const Eigen::VectorXd& q_target,
                                              const CompensationOptions& options);
 
-// Chain joints at which the *nominal* flange is at X_BF, by Newton from `preferred` and then from
-// seeded draws over the joint limits; of the solutions within limits the one nearest to
-// `preferred`.
+// Chain joints at which the *nominal* flange is at X_BF: by Newton from `preferred`, and where that
+// does not arrive from seeded draws over the joint limits, until 12 of at most 100 have arrived
+// within the limits; of these the one nearest to `preferred`.
 // @param robot its nominal; @param preferred controller joints, e.g. the middle of the limits.
-// @returns kFailedPrecondition when no start of 100 arrives.
+// @returns kFailedPrecondition when no start arrives.
 absl::StatusOr<Eigen::VectorXd> NominalInverse(const Robot& robot, const Model& model,
                                                const Pose& X_BF, const Eigen::VectorXd& preferred,
                                                const CompensationOptions& options);

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 
 #include "absl/strings/str_cat.h"
@@ -44,8 +45,11 @@ absl::Status SolveWithWeights(const Problem& problem, const std::vector<int>& ac
     const ModelError next =
         EstimateModelError(problem, result->estimate, active, result->model_error);
     if (Stands(next, result->model_error, options.weight_tolerance)) return absl::OkStatus();
+    if (round + 1 == options.max_weight_rounds) break;
     result->model_error = next;
   }
+  result->summary.termination = Termination::kIterationLimit;
+  result->summary.message = "the estimated model error did not settle";
   return absl::OkStatus();
 }
 
@@ -90,23 +94,6 @@ int GenericIndex(const Problem& problem, int candidate) {
   return 2 * kFrameParameters + candidate - problem.FirstInternal();
 }
 
-absl::Status CheckFrames(const Problem& problem, const IdentifiableSet& generic,
-                         const IdentifiableSet& actual) {
-  const std::set<int> possible(generic.active.begin(), generic.active.end());
-  const ParameterSet names = Candidates(problem);
-  FaultList faults;
-  for (const NullRelation& relation : actual.redundancies) {
-    if (relation.dropped >= problem.FirstInternal() ||
-        !possible.contains(GenericIndex(problem, relation.dropped)))
-      continue;
-    faults.Add(names[relation.dropped].name,
-               absl::StrCat("not determined by ", problem.readings.size(),
-                            " readings: ", RelationText(relation, names)),
-               "readings with more, and more different, positions and orientations of the flange");
-  }
-  return faults.ToStatus(absl::StatusCode::kFailedPrecondition);
-}
-
 void MarkStructural(const Problem& problem, const IdentifiableSet& generic, IdentifiableSet* set) {
   const std::set<int> possible(generic.active.begin(), generic.active.end());
   for (NullRelation& relation : set->redundancies) {
@@ -133,25 +120,56 @@ void ResetInactive(const Problem& problem, const std::vector<int>& active, Estim
   }
 }
 
-// Solves for the kept candidates, then looks again with the weights found: some may prove too weak,
-// never the reverse.
+// What stays of `active` when looked at again: a candidate that was dropped never comes back, so
+// the set only shrinks.
+IdentifiableSet Shrunk(const IdentifiableSet& again, const std::vector<int>& active) {
+  IdentifiableSet set = again;
+  set.active.clear();
+  std::set_intersection(again.active.begin(), again.active.end(), active.begin(), active.end(),
+                        std::back_inserter(set.active));
+  for (int candidate : again.active) {
+    if (!std::binary_search(active.begin(), active.end(), candidate)) {
+      set.redundancies.push_back({candidate, {}, true, false});
+    }
+  }
+  return set;
+}
+
+// Solves for the kept candidates, then looks again with the weights found, until none proves too
+// weak: the set that is returned is one that was solved. Ends, since the set shrinks each time.
 absl::Status SolveKept(const Problem& problem, const Identification& before,
                        const IdentifyOptions& options, const Hooks& hooks, Identification* result) {
-  for (int look = 0; look < 4; ++look) {
+  for (;;) {
     TRUEPOSE_RETURN_IF_ERROR(SolveWithWeights(problem, result->set.active, options, hooks, result));
     if (result->summary.termination == Termination::kFailed) return absl::OkStatus();
     IdentifiableSet again =
-        SetAtNominal(problem, before, result->model_error, options.identifiability);
-    const bool fewer = again.active.size() < result->set.active.size();
+        Shrunk(SetAtNominal(problem, before, result->model_error, options.identifiability),
+               result->set.active);
     result->set.condition = again.condition;
-    if (!fewer) return absl::OkStatus();
+    if (again.active.size() == result->set.active.size()) return absl::OkStatus();
     result->set = std::move(again);
     ResetInactive(problem, result->set.active, &result->estimate);
   }
-  return absl::OkStatus();
 }
 
 }  // namespace
+
+absl::Status CheckFrames(const Problem& problem, const IdentifiableSet& generic,
+                         const IdentifiableSet& actual) {
+  const std::set<int> possible(generic.active.begin(), generic.active.end());
+  const ParameterSet names = Candidates(problem);
+  FaultList faults;
+  for (const NullRelation& relation : actual.redundancies) {
+    if (relation.dropped >= problem.FirstInternal() ||
+        !possible.contains(GenericIndex(problem, relation.dropped)))
+      continue;
+    faults.Add(names[relation.dropped].name,
+               absl::StrCat("not determined by ", problem.readings.size(),
+                            " readings: ", RelationText(relation, names)),
+               "readings with more, and more different, positions and orientations of the flange");
+  }
+  return faults.ToStatus(absl::StatusCode::kFailedPrecondition);
+}
 
 absl::StatusOr<Identification> FitFrames(const Problem& problem, const Estimate& start,
                                          const IdentifyOptions& options, const Hooks& hooks) {

@@ -22,8 +22,7 @@ struct Identification {
   Eigen::MatrixXd covariance;  // of set.active, in their order; SI
   SolveSummary summary;        // of the whole loop: first cost, last cost, iterations summed
   int rows = 0;
-  double weighted_residual_variance =
-      0;  // 2 cost / (rows - active); near 1 when the weights are right
+  double weighted_residual_variance = 0;  // 2 cost / (rows - active): 1 where the weights settled
 };
 
 struct IdentifyOptions {
@@ -40,6 +39,12 @@ struct IdentifyOptions {
 // summary.
 absl::StatusOr<Identification> FitFrames(const Problem& problem, const Estimate& start,
                                          const IdentifyOptions& options, const Hooks& hooks);
+
+// @returns kFailedPrecondition with a fault for each base or tool direction that generic readings
+// would
+//   determine (`generic`) and `actual` does not have.
+absl::Status CheckFrames(const Problem& problem, const IdentifiableSet& generic,
+                         const IdentifiableSet& actual);
 
 // Identifies everything that the readings determine, from `before` = FitFrames at nominal lambda.
 // @param generic GenericIdentifiable of the problem: what could be determined at best.

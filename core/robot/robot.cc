@@ -1,6 +1,7 @@
 #include "core/robot/robot.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -116,7 +117,7 @@ Eigen::VectorXd Robot::MiddleOfLimits() const {
   Eigen::VectorXd middle(joint_count());
   for (int i = 0; i < joint_count(); ++i) {
     const double m = 0.5 * (joints_[i].lower + joints_[i].upper);
-    middle(i) = std::isfinite(m) ? m : 0.0;
+    middle(i) = std::isfinite(m) ? m : std::clamp(0.0, joints_[i].lower, joints_[i].upper);
   }
   return middle;
 }

@@ -52,7 +52,8 @@ class Robot {
   const std::vector<Joint>& joints() const { return joints_; }
   const Chain& chain() const { return chain_; }
   const JointMap& joint_map() const { return map_; }
-  // The middle of the joint's limits, 0 when it has none; controller joints.
+  // The middle of the joint's limits; where one is missing the value nearest to 0. Controller
+  // joints.
   Eigen::VectorXd MiddleOfLimits() const;
 
  private:

@@ -60,8 +60,9 @@ TEST(CompensationLaws, OutOfReachIsAnError) {
   EXPECT_NE(std::string(solved.status().message()).find("out of reach"), std::string::npos);
 }
 
-// A robot of five joints can't correct every error; what remains is least and is told.
-TEST(CompensationLaws, FiveJointsReportTheirRemainder) {
+// A robot of five joints can't correct every error: position comes first, the remainder is told,
+// and no nearby joints are better.
+TEST(CompensationLaws, FiveJointsPutPositionFirst) {
   Random random(22);
   const Robot robot = testing::MeasuringArm();
   const Model model = ModifiedIncremental(robot, ModelExtent::kInternal);
@@ -70,13 +71,40 @@ TEST(CompensationLaws, FiveJointsReportTheirRemainder) {
   const Eigen::VectorXd q = (Eigen::VectorXd(5) << 0.2, 0.5, -0.6, 0.4, 0.7).finished();
   const auto solved = CompensateJoints(model, lambda, q, {});
   ASSERT_TRUE(solved.ok()) << solved.status();
-  const Pose desired = Forward(model.chain, q, nominal),
-             reached = Forward(model.chain, solved->q, lambda);
-  EXPECT_NEAR((desired.p - reached.p).norm(), solved->position_residual_m, 1e-15);
-  const Pose uncorrected = Forward(model.chain, q, lambda);
-  EXPECT_LT(solved->position_residual_m + solved->rotation_residual_rad,
-            (desired.p - uncorrected.p).norm() +
-                LogRotation<double>(desired.R * uncorrected.R.transpose()).norm());
+  const Pose desired = Forward(model.chain, q, nominal);
+  const auto cost = [&](const Eigen::VectorXd& at) {
+    const Pose X = Forward(model.chain, at, lambda);
+    return (desired.p - X.p).squaredNorm() +
+           1e-6 * LogRotation<double>(desired.R * X.R.transpose()).squaredNorm();
+  };
+  EXPECT_NEAR((desired.p - Forward(model.chain, solved->q, lambda).p).norm(),
+              solved->position_residual_m, 1e-15);
+  EXPECT_LT(solved->position_residual_m, 2e-5);
+  EXPECT_GT((desired.p - Forward(model.chain, q, lambda).p).norm(), 3e-4);
+  for (int draw = 0; draw < 50; ++draw) {
+    EXPECT_LE(cost(solved->q), cost(solved->q + RandomVector(5, 1e-4, &random)));
+  }
+}
+
+// A joint map in which a turn of the controller's joint is no turn of the chain: pose targets still
+// land where they should.
+TEST(CompensationLaws, NominalInverseWithACoupledMap) {
+  const Robot plain = testing::Ur10();
+  JointMap map = JointMap::Identity(6);
+  map.scale(0, 0) = 0.5;
+  map.scale(2, 1) = 1;
+  const auto robot = Robot::Create(plain.joints(), plain.chain(), map);
+  ASSERT_TRUE(robot.ok());
+  const Model model = ModifiedIncremental(*robot, ModelExtent::kInternal);
+  const Eigen::VectorXd nominal = Eigen::VectorXd::Zero(model.parameters.size());
+  Random random(24);
+  for (int draw = 0; draw < 20; ++draw) {
+    const Pose X_BF = Forward(
+        model.chain, Eigen::VectorXd::Constant(6, 0.9) + RandomVector(6, 0.5, &random), nominal);
+    const auto found = NominalInverse(*robot, model, X_BF, Eigen::VectorXd::Constant(6, 5.0), {});
+    ASSERT_TRUE(found.ok()) << found.status();
+    EXPECT_LT((Forward(model.chain, *found, nominal).p - X_BF.p).norm(), 1e-9);
+  }
 }
 
 TEST(CompensationLaws, NominalInverseFindsTheNearestConfiguration) {

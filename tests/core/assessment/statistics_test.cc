@@ -63,12 +63,18 @@ Identification Converged() {
 }
 
 TEST(Verdict, Decisions) {
-  const auto better = Errors({0.5, 0.4, 0.6, 0.5}), worse = Errors({1, 1.1, 0.9, 1.2});
+  const auto better = Errors({0.5, 0.4, 0.6, 0.5, 0.5, 0.4, 0.6, 0.5, 0.4, 0.6}),
+             worse = Errors({1, 1.1, 0.9, 1.2, 1, 1.1, 0.9, 1.2, 1, 1.1});
   EXPECT_EQ(Judge(Converged(), {}, worse, better).decision, Decision::kApply);
   EXPECT_EQ(Judge(Converged(), {}, better, worse).decision, Decision::kDoNotApply);
   EXPECT_EQ(Judge(Converged(), {}, worse, worse).decision, Decision::kDoNotApply)
       << "no change is no improvement";
   EXPECT_EQ(Judge(Converged(), {}, {}, {}).decision, Decision::kApplyWithinVolume);
+  EXPECT_EQ(Judge(Converged(), {}, Errors({1, 1, 1}), Errors({0.4, 0.4, 0.4})).decision,
+            Decision::kApplyWithinVolume)
+      << "three rows prove little";
+  EXPECT_EQ(Judge(Converged(), {}, Errors({1, 1, 1}), Errors({2, 2, 2})).decision,
+            Decision::kDoNotApply);
   Identification dropped = Converged();
   dropped.set.redundancies.push_back({3, {}, true, false});
   EXPECT_EQ(Judge(dropped, {}, worse, better).decision, Decision::kApplyWithinVolume);
@@ -83,7 +89,8 @@ TEST(Verdict, Decisions) {
 
 // A wrong robot file can improve the control set with a joint that is 40 deg off.
 TEST(Verdict, ImplausibleCorrections) {
-  const auto better = Errors({0.5, 0.4, 0.6, 0.5}), worse = Errors({1, 1.1, 0.9, 1.2});
+  const auto better = Errors({0.5, 0.4, 0.6, 0.5, 0.5, 0.4, 0.6, 0.5, 0.4, 0.6}),
+             worse = Errors({1, 1.1, 0.9, 1.2, 1, 1.1, 0.9, 1.2, 1, 1.1});
   ParameterSet parameters;
   parameters.Add({"dq1", ParameterGroup::kInternal, ParameterRole::kJointOffset, true});
   parameters.Add({"da1", ParameterGroup::kInternal, ParameterRole::kLength, false});

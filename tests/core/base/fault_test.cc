@@ -35,6 +35,11 @@ TEST(Fault, LongListIsCut) {
   const absl::Status status = list.ToStatus();
   EXPECT_EQ(FaultsOf(status).size(), 200u);
   EXPECT_NE(status.message().find("and 50 more"), std::string::npos);
+  FaultList again;
+  again.Add("one", "x", "y");
+  again.AddAll(status);
+  EXPECT_NE(again.ToStatus().message().find("and 51 more"), std::string::npos)
+      << "taken over by another list, the cut ones still count";
 }
 
 TEST(Fault, AddAllPrefixesFields) {

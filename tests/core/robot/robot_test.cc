@@ -59,6 +59,10 @@ TEST(Robot, MiddleOfLimits) {
       JointMap::Identity(2));
   ASSERT_TRUE(robot.ok());
   EXPECT_EQ(robot->MiddleOfLimits(), Eigen::Vector2d(0.5, 0));
+  joints = {{"a", JointType::kRevolute, 2}, {"b"}};
+  const auto one_sided = Robot::Create(joints, robot->chain(), JointMap::Identity(2));
+  ASSERT_TRUE(one_sided.ok());
+  EXPECT_EQ(one_sided->MiddleOfLimits(), Eigen::Vector2d(2, 0));
 }
 
 std::vector<Fault> FaultsWith(std::vector<Joint> joints, const Chain& chain, const JointMap& map) {
