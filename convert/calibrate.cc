@@ -151,7 +151,9 @@ absl::StatusOr<v1::Calibration> RunCalibration(const v1::CalibrationInput& input
   const Hooks core_hooks = HooksFrom(hooks);
   TRUEPOSE_ASSIGN_OR_RETURN(const CalibrationResult result,
                             Calibrate(readings.problem, options, core_hooks));
-  v1::Calibration calibration = MessageOf(input, result, readings, readings.problem.X_FT_nominal);
+  v1::Calibration calibration = MessageOf(
+      input, result, readings,
+      input.options().nominal_tool().empty() ? std::nullopt : readings.problem.X_FT_nominal);
   FillReport(input, readings, warnings, calibration.mutable_report());
   return calibration;
 }

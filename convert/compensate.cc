@@ -35,8 +35,10 @@ absl::Status CheckTargets(const v1::CompensateRequest& request, int joints) {
 // Compensates targets of one robot with one tool.
 class Compensator {
  public:
-  Compensator(const Robot& robot, const CalibratedModel& calibrated, const Pose& X_FT)
+  Compensator(const Robot& robot, const CalibratedModel& calibrated, const Pose& X_FT,
+              v1::RobotKind kind)
       : robot_(robot),
+        kind_(kind),
         model_(calibrated.model),
         lambda_(calibrated.lambda),
         nominal_(Eigen::VectorXd::Zero(calibrated.lambda.size())),
@@ -44,8 +46,7 @@ class Compensator {
 
   v1::CompensatedTarget Run(const v1::CompensationTarget& target) const {
     v1::CompensatedTarget result;
-    const absl::Status status =
-        target.has_pose() ? RunPose(target, &result) : RunJoints(target, &result);
+    const absl::Status status = Correct(target, &result);
     if (!status.ok()) {
       result.Clear();
       result.set_fault(std::string(status.message()));
@@ -55,6 +56,24 @@ class Compensator {
   }
 
  private:
+  absl::Status Correct(const v1::CompensationTarget& target, v1::CompensatedTarget* result) const {
+    if (kind_ == v1::MEASURING) return RunTip(target, result);
+    return target.has_pose() ? RunPose(target, result) : RunJoints(target, result);
+  }
+
+  // A measuring robot is read, not commanded: joints in, the tip where it really is out.
+  absl::Status RunTip(const v1::CompensationTarget& target, v1::CompensatedTarget* result) const {
+    if (target.has_pose()) {
+      return absl::FailedPreconditionError(
+          "a measuring robot can't be sent to a pose: give the joints that were read");
+    }
+    const Eigen::VectorXd q = robot_.joint_map().ToChain(JointsOf(target));
+    const Pose X_BT = Forward(model_.chain, q, lambda_) * X_FT_;
+    *result->mutable_pose() = ToProto(X_BT);
+    SetCorrection(X_BT, Forward(model_.chain, q, nominal_) * X_FT_, result);
+    return absl::OkStatus();
+  }
+
   absl::Status RunJoints(const v1::CompensationTarget& target,
                          v1::CompensatedTarget* result) const {
     const Eigen::VectorXd q = robot_.joint_map().ToChain(JointsOf(target));
@@ -110,11 +129,25 @@ class Compensator {
   }
 
   const Robot& robot_;
+  const v1::RobotKind kind_;
   const Model& model_;
   const Eigen::VectorXd& lambda_;
   const Eigen::VectorXd nominal_;
   const Pose X_FT_;
 };
+
+// What its own report says must not be applied does not reach a robot by this way either.
+absl::Status CheckVerdict(const v1::Calibration& calibration) {
+  const v1::CalibrationReport& report = calibration.report();
+  if (report.verdict() != "do_not_apply") return absl::OkStatus();
+  const std::string reason = report.verdict_reasons().empty()
+                                 ? ""
+                                 : absl::StrCat(" (", *report.verdict_reasons().rbegin(), ")");
+  FaultList faults;
+  faults.Add("calibration.report.verdict", absl::StrCat("do_not_apply", reason),
+             "a calibration that may be applied");
+  return faults.ToStatus(absl::StatusCode::kFailedPrecondition);
+}
 
 absl::StatusOr<Pose> ToolOf(const v1::Nominal& nominal, const std::string& name) {
   if (name.empty()) return Pose{};
@@ -129,9 +162,10 @@ absl::StatusOr<v1::CompensateResponse> RunCompensation(const v1::Nominal& nomina
   TRUEPOSE_ASSIGN_OR_RETURN(const Robot robot, RobotFrom(nominal));
   TRUEPOSE_ASSIGN_OR_RETURN(const CalibratedModel calibrated,
                             CalibratedModelFrom(robot, calibration));
+  TRUEPOSE_RETURN_IF_ERROR(CheckVerdict(calibration));
   TRUEPOSE_RETURN_IF_ERROR(CheckTargets(request, robot.joint_count()));
   TRUEPOSE_ASSIGN_OR_RETURN(const Pose X_FT, ToolOf(nominal, request.tool()));
-  const Compensator compensator(robot, calibrated, X_FT);
+  const Compensator compensator(robot, calibrated, X_FT, nominal.kind());
   v1::CompensateResponse response;
   for (const v1::CompensationTarget& target : request.targets())
     *response.add_targets() = compensator.Run(target);

@@ -22,12 +22,19 @@ class Labels {
  public:
   int IndexOf(const std::string& key, const std::string& label) {
     const auto [it, added] = index_.emplace(key, static_cast<int>(labels_.size()));
-    if (added) labels_.push_back(label);
+    if (added) labels_.push_back(Unique(label));
     return it->second;
   }
   const std::vector<std::string>& labels() const { return labels_; }
 
  private:
+  // A user's target may be called "session 1"; parameters are named after labels, and names are
+  // unique.
+  std::string Unique(std::string label) const {
+    while (std::find(labels_.begin(), labels_.end(), label) != labels_.end()) label += "'";
+    return label;
+  }
+
   std::map<std::string, int> index_;
   std::vector<std::string> labels_;
 };

@@ -54,10 +54,30 @@ NominalAndIdentified ValuesOf(const CalibrationResult& result, int candidate,
   return {0, estimate.lambda(candidate - kFrameParameters * (bases + tools))};
 }
 
+// Variances of the values as they are shown. Corrections of a frame's rotation are turns about the
+// axes of its base, shown is the rotation vector r of the whole: d r = J_l^-1(r) d, J_l^-1(r) =
+// J_r^-1(-r).
+Eigen::VectorXd ShownVariances(const CalibrationResult& result) {
+  const std::vector<int>& active = result.identification.set.active;
+  const Eigen::MatrixXd& covariance = result.identification.covariance;
+  Eigen::VectorXd variances = covariance.diagonal();
+  for (size_t i = 0; i + 2 < active.size() && i + 2 < static_cast<size_t>(covariance.rows()); ++i) {
+    const bool rotation = result.candidates[active[i]].role == ParameterRole::kExternal &&
+                          active[i] % kFrameParameters == 3 && active[i + 2] == active[i] + 2;
+    if (!rotation) continue;
+    Eigen::Vector3d r;
+    for (int k = 0; k < 3; ++k) r(k) = ValuesOf(result, active[i] + k, Pose{}).identified;
+    const Eigen::Matrix3d J = RightJacobianInverse(-r);
+    const auto at = static_cast<Eigen::Index>(i);
+    variances.segment<3>(at) = (J * covariance.block<3, 3>(at, at) * J.transpose()).diagonal();
+  }
+  return variances;
+}
+
 v1::ParameterReport ParametersOf(const CalibrationResult& result, const Pose& X_FT_nominal) {
   v1::ParameterReport report;
   const std::vector<int>& active = result.identification.set.active;
-  const Eigen::MatrixXd& covariance = result.identification.covariance;
+  const Eigen::VectorXd variances = ShownVariances(result);
   for (size_t i = 0; i < active.size(); ++i) {
     const Parameter& parameter = result.candidates[active[i]];
     const double scale = parameter.is_angle ? kDegPerRad : kMmPerM;
@@ -67,7 +87,7 @@ v1::ParameterReport ParametersOf(const CalibrationResult& result, const Pose& X_
     value->set_nominal(nominal * scale);
     value->set_identified(identified * scale);
     const auto k = static_cast<Eigen::Index>(i);
-    if (k < covariance.rows()) value->set_sd(std::sqrt(covariance(k, k)) * scale);
+    if (k < variances.size()) value->set_sd(std::sqrt(variances(k)) * scale);
     value->set_unit(parameter.is_angle ? "deg" : "mm");
     value->set_group(GroupToProto(parameter.group));
   }

@@ -44,7 +44,11 @@ absl::StatusOr<v1::Evaluation> RunEvaluation(const v1::Nominal& nominal,
                                              const v1::SessionInput& session, v1::Observe observe);
 
 // Corrects joint or pose targets exactly (Newton on the identified internal chain, from B to F).
-// A target that can't be corrected carries its fault; the others are corrected.
+// A target that can't be corrected carries its fault; the others are corrected. Of a measuring
+// robot the joints are those that were read, and the answer is the pose X_BT of the tip where it
+// really is, without joints.
+// @returns kFailedPrecondition for a calibration whose verdict is do_not_apply; kInvalidArgument
+// with faults.
 absl::StatusOr<v1::CompensateResponse> RunCompensation(const v1::Nominal& nominal,
                                                        const v1::Calibration& calibration,
                                                        const v1::CompensateRequest& request);

@@ -82,9 +82,14 @@ void HoldInactive(const std::vector<bool>& is_active, int first, int size, doubl
   }
 }
 
-ceres::Solver::Options SolverOptions(const SolveOptions& options, HooksCallback* callback) {
+// Up to this many rows QR costs nothing, and it takes the degenerate systems of tiny sessions
+// without complaint.
+constexpr int kRowsForQr = 400;
+
+ceres::Solver::Options SolverOptions(const SolveOptions& options, int rows,
+                                     HooksCallback* callback) {
   ceres::Solver::Options solver;
-  solver.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+  solver.linear_solver_type = rows <= kRowsForQr ? ceres::DENSE_QR : ceres::DENSE_NORMAL_CHOLESKY;
   solver.max_num_iterations = options.max_iterations;
   solver.function_tolerance = options.function_tolerance;
   solver.parameter_tolerance = options.parameter_tolerance;
@@ -178,7 +183,8 @@ SolveSummary Minimise(const Problem& problem, const ModelError& model_error,
   Blocks blocks(problem, model_error, active, *estimate);
   HooksCallback callback(hooks);
   ceres::Solver::Summary summary;
-  ceres::Solve(SolverOptions(options, &callback), blocks.solver(), &summary);
+  ceres::Solve(SolverOptions(options, blocks.solver()->NumResiduals(), &callback), blocks.solver(),
+               &summary);
   SolveSummary result{TerminationOf(summary, hooks), static_cast<int>(summary.iterations.size()),
                       summary.initial_cost, summary.final_cost, summary.message};
   if (summary.IsSolutionUsable()) blocks.WriteTo(estimate);

@@ -40,7 +40,8 @@ std::vector<std::string> FrameTerms(const NullRelation& relation, const Paramete
 
 std::string RelationText(const NullRelation& relation, const ParameterSet& candidates) {
   const Parameter& dropped = candidates[relation.dropped];
-  if (relation.kept.empty()) return absl::StrCat(dropped.name, " = 0");
+  if (relation.undetermined) return absl::StrCat(dropped.name, " = too weak to be told");
+  if (relation.kept.empty()) return absl::StrCat(dropped.name, " = no effect");
   std::vector<std::string> terms = FrameTerms(relation, candidates);
   for (const auto& term : relation.kept) {
     if (!IsExternal(candidates, term))
