@@ -145,6 +145,21 @@ class Collector {
   int all_rows_ = 0, measured_ = 0, commanded_ = 0;
 };
 
+// Rows that count twice make every deviation too small by the root of two.
+void CheckRepeatedSessions(const Sessions& sessions, FaultList* faults) {
+  if (sessions.size() < 2) return;
+  std::map<std::string, size_t> first;
+  for (size_t s = 0; s < sessions.size(); ++s) {
+    const auto& readings = sessions[s]->readings();
+    const auto [it, added] = first.emplace(ReadingsDigest({readings.begin(), readings.end()}), s);
+    if (!added) {
+      faults->Add(absl::StrCat("sessions[", s, "]"),
+                  absl::StrCat("the same readings as sessions[", it->second, "]"),
+                  "each session once");
+    }
+  }
+}
+
 absl::Status CheckSessions(const v1::Nominal& nominal, const Sessions& sessions) {
   FaultList faults;
   if (sessions.empty()) faults.Add("sessions", "none", "at least one sealed session");
@@ -153,6 +168,7 @@ absl::Status CheckSessions(const v1::Nominal& nominal, const Sessions& sessions)
     faults.AddAll(ValidateReadings(nominal, {readings.begin(), readings.end()}, 0),
                   absl::StrCat("sessions[", s, "]."));
   }
+  CheckRepeatedSessions(sessions, &faults);
   return faults.ToStatus();
 }
 

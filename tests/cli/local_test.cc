@@ -215,5 +215,23 @@ TEST_F(LocalTest, RequireCompleteFailsWhereReadingsDoNotSuffice) {
   EXPECT_EQ(ran.out, "");
 }
 
+// A robot without errors can't be improved: the report says not to apply, names no way on to
+// compensation, and compensate refuses the file.
+TEST_F(LocalTest, DoNotApplyDoesNotReachARobot) {
+  const std::string session = folder_.Path("exact.csv"), calibration = folder_.Path("exact.json");
+  ASSERT_EQ(RunCli({"simulate", robot_, "--poses", "60", "--length-error-mm", "0",
+                    "--angle-error-deg", "0", "--output", session})
+                .code,
+            0);
+  const Ran ran = Calibrate({"--split", "even-odd", "--output", calibration}, session);
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("Next: find the cause first"));
+  const Ran refused = RunCli({"compensate", Example("ur10_targets.csv"), "--local", "--robot",
+                              robot_, "--calibration", calibration});
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_EQ(refused.out, "");
+  EXPECT_THAT(refused.err, HasSubstr("do_not_apply"));
+}
+
 }  // namespace
 }  // namespace truepose::cli

@@ -133,6 +133,12 @@ TEST(Input, NoSessionAndNoReading) {
   EXPECT_THAT(Fields(RunCalibration(input).status()), ElementsAre("sessions"));
 }
 
+TEST(Input, TheSameSessionTwice) {
+  v1::CalibrationInput input = SampleInput();
+  *input.add_sessions() = input.sessions(0);
+  EXPECT_THAT(Fields(RunCalibration(input).status()), ElementsAre("sessions[1]"));
+}
+
 // A joint beyond its limit is a warning with its rows; with strict_limits it is an error.
 TEST(Limits, WarningOrError) {
   v1::CalibrationInput input = SampleInput();

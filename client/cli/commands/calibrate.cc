@@ -100,6 +100,12 @@ absl::StatusOr<std::optional<OutputFile>> OpenOutput(const CalibrateOptions& opt
   return std::optional<OutputFile>(std::move(file));
 }
 
+// What must not be applied is not handed on to compensation.
+std::string NextAfter(const v1::Calibration& calibration, const std::string& next_step) {
+  if (calibration.report().verdict() != "do_not_apply") return next_step;
+  return "find the cause first: the reasons above, then units, order of joints and robot file";
+}
+
 absl::Status Deliver(const Invocation& invocation, const v1::Calibration& calibration,
                      std::optional<OutputFile> output, const std::string& next_step) {
   if (output.has_value()) {
@@ -107,8 +113,8 @@ absl::Status Deliver(const Invocation& invocation, const v1::Calibration& calibr
     TRUEPOSE_RETURN_IF_ERROR(output->Commit(json));
   }
   return Reply(invocation, calibration.report(), [&] {
-    return absl::StrCat(CalibrationText(calibration, invocation.console), "Next: ", next_step,
-                        "\n");
+    return absl::StrCat(CalibrationText(calibration, invocation.console),
+                        "Next: ", NextAfter(calibration, next_step), "\n");
   });
 }
 
