@@ -48,25 +48,6 @@ bool WriteReadyFile(const std::string& path, const std::string& address) {
   return std::rename(temporary.c_str(), path.c_str()) == 0;
 }
 
-// A ready file that was there at the start. One that a killed server left behind would send clients
-// to where nobody is, so it goes aside; but it may be that of a running server, which a start by
-// mistake must not disturb.
-class StaleReadyFile {
- public:
-  explicit StaleReadyFile(const std::string& path) : path_(path), aside_(path + ".before") {
-    if (!path_.empty()) std::rename(path_.c_str(), aside_.c_str());
-  }
-  void PutBack() const {
-    if (!path_.empty()) std::rename(aside_.c_str(), path_.c_str());
-  }
-  void Remove() const {
-    if (!path_.empty()) std::remove(aside_.c_str());
-  }
-
- private:
-  const std::string path_, aside_;
-};
-
 int Fail(ExitCode code, const std::string& message) {
   std::cerr << "trueposed: " << message << "\n";
   return code;
@@ -74,13 +55,11 @@ int Fail(ExitCode code, const std::string& message) {
 
 int Run(const CommandLine& line) {
   const sigset_t signals = BlockStopSignals();
-  const StaleReadyFile stale(line.ready_file);
+  // One that a killed server left behind would send clients to where nobody is.
+  if (!line.ready_file.empty()) std::remove(line.ready_file.c_str());
   auto server = Server::Start(line.server, CalibrationRunner());
-  if (!server.ok()) {
-    stale.PutBack();
+  if (!server.ok())
     return Fail(ToExitCode(server.status()), std::string(server.status().message()));
-  }
-  stale.Remove();
   if (!line.ready_file.empty() && !WriteReadyFile(line.ready_file, (*server)->address())) {
     return Fail(kExitUsage, "ready-file: '" + line.ready_file + "' can't be written");
   }

@@ -109,16 +109,6 @@ TEST_F(ProgramTest, ASecondServerOnOneDatabaseIsExitCode5) {
   EXPECT_THAT(second.Output(), ::testing::AllOf(HasSubstr(Database()), HasSubstr("expected")));
 }
 
-// The same command line typed twice: clients still find the server that runs.
-TEST_F(ProgramTest, ASecondServerLeavesTheReadyFileOfTheFirst) {
-  ServerProcess first(folder_, {"--database", Database()});
-  ASSERT_TRUE(first.WaitUntilReady()) << first.Output();
-  ServerProcess second(second_, {"--database", Database(), "--ready-file", folder_.File("ready")});
-  EXPECT_EQ(second.Wait(), server::kExitDatabase);
-  EXPECT_TRUE(std::filesystem::exists(folder_.File("ready")));
-  EXPECT_FALSE(std::filesystem::exists(folder_.File("ready.before")));
-}
-
 // Would catch a file of measurements that is overwritten by a mistyped path.
 TEST_F(ProgramTest, AFileThatIsNoDatabaseIsExitCode5AndStays) {
   const std::string text(5000, 'x');
