@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/assessment/verdict.h"
+#include "core/base/random.h"
 
 namespace truepose {
 namespace {
@@ -54,6 +55,21 @@ TEST(Verdict, BootstrapIntervalHasItsWidth) {
   // Mean of squares 2.125, its deviation 1.875 / sqrt(200) = 0.1326; +- 1.96 of it, then the root.
   EXPECT_NEAR(low, std::sqrt(2.125 - 1.96 * 0.1326), 0.02);
   EXPECT_NEAR(high, std::sqrt(2.125 + 1.96 * 0.1326), 0.02);
+}
+
+// The two quantiles are as far from their ends: exchanged sets give exactly the reciprocal
+// interval.
+TEST(Verdict, BootstrapIsSymmetric) {
+  std::vector<double> a, b;
+  Random random(95);
+  for (int i = 0; i < 30; ++i) {
+    a.push_back(random.Uniform(0.5, 2));
+    b.push_back(random.Uniform(0.5, 2));
+  }
+  const Interval ratio = BootstrapRatio(Errors(a), Errors(b)),
+                 inverse = BootstrapRatio(Errors(b), Errors(a));
+  EXPECT_NEAR(ratio.low * inverse.high, 1, 1e-12);
+  EXPECT_NEAR(ratio.high * inverse.low, 1, 1e-12);
 }
 
 Identification Converged() {

@@ -180,6 +180,18 @@ TEST(CalibrateFaults, CancelledAtAnyMoment) {
   }
 }
 
+// Progress keeps to its stage's share, so a bar does not run to its end and wait there.
+TEST(Calibrate, ProgressStaysInItsStage) {
+  const Simulated simulated(testing::Ur10(), AnyTarget(), Noise(1e-4, 1e-4));
+  Hooks hooks;
+  hooks.on_progress = [](const Progress& progress) {
+    const bool start = progress.stage == "start_values",
+               identification = progress.stage == "identification";
+    EXPECT_LE(progress.fraction, start ? 0.3 : identification ? 0.9 : 1.0) << progress.stage;
+  };
+  EXPECT_TRUE(Calibrate(simulated.Problem(), {}, hooks).ok());
+}
+
 // Control rows of a placement that has no calibration row: its base is fitted on them, and the
 // result says so.
 TEST(Calibrate, PlacementOfControlRowsOnly) {
