@@ -68,9 +68,9 @@ class Compensator {
           "a measuring robot can't be sent to a pose: give the joints that were read");
     }
     const Eigen::VectorXd q = robot_.joint_map().ToChain(JointsOf(target));
-    const Pose X_BT = Forward(model_.chain, q, lambda_) * X_FT_;
+    const Pose X_BT = Forward(model_, q, lambda_) * X_FT_;
     *result->mutable_pose() = ToProto(X_BT);
-    SetCorrection(X_BT, Forward(model_.chain, q, nominal_) * X_FT_, result);
+    SetCorrection(X_BT, Forward(model_, q, nominal_) * X_FT_, result);
     return absl::OkStatus();
   }
 
@@ -78,7 +78,7 @@ class Compensator {
                          v1::CompensatedTarget* result) const {
     const Eigen::VectorXd q = robot_.joint_map().ToChain(JointsOf(target));
     TRUEPOSE_RETURN_IF_ERROR(CheckLimits(JointsOf(target), "target"));
-    return Solve(q, Forward(model_.chain, q, nominal_), result);
+    return Solve(q, Forward(model_, q, nominal_), result);
   }
 
   absl::Status RunPose(const v1::CompensationTarget& target, v1::CompensatedTarget* result) const {
@@ -97,8 +97,8 @@ class Compensator {
     const Eigen::VectorXd q_controller = robot_.joint_map().ToController(solved.q);
     TRUEPOSE_RETURN_IF_ERROR(CheckLimits(q_controller, "compensated"));
     for (double value : q_controller) result->add_joints(value);
-    *result->mutable_pose() = ToProto(Forward(model_.chain, solved.q, nominal_) * X_FT_);
-    SetCorrection(X_BF * X_FT_, Forward(model_.chain, q, lambda_) * X_FT_, result);
+    *result->mutable_pose() = ToProto(Forward(model_, solved.q, nominal_) * X_FT_);
+    SetCorrection(X_BF * X_FT_, Forward(model_, q, lambda_) * X_FT_, result);
     result->set_residual_position_mm(solved.position_residual_m * kMmPerM);
     result->set_iterations(solved.iterations);
     return absl::OkStatus();

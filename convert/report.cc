@@ -80,7 +80,7 @@ v1::ParameterReport ParametersOf(const CalibrationResult& result, const Pose& X_
   const Eigen::VectorXd variances = ShownVariances(result);
   for (size_t i = 0; i < active.size(); ++i) {
     const Parameter& parameter = result.candidates[active[i]];
-    const double scale = parameter.is_angle ? kDegPerRad : kMmPerM;
+    const double scale = parameter.is_angle() ? kDegPerRad : kMmPerM;
     const auto [nominal, identified] = ValuesOf(result, active[i], X_FT_nominal);
     v1::ParameterValue* value = report.add_values();
     value->set_name(parameter.name);
@@ -88,7 +88,7 @@ v1::ParameterReport ParametersOf(const CalibrationResult& result, const Pose& X_
     value->set_identified(identified * scale);
     const auto k = static_cast<Eigen::Index>(i);
     if (k < variances.size()) value->set_sd(std::sqrt(variances(k)) * scale);
-    value->set_unit(parameter.is_angle ? "deg" : "mm");
+    value->set_unit(parameter.is_angle() ? "deg" : "mm");
     value->set_group(GroupToProto(parameter.group));
   }
   report.set_identified(static_cast<int>(active.size()));

@@ -28,8 +28,9 @@ std::vector<PoseError> PoseErrors(const Problem& problem, const Estimate& estima
   std::vector<PoseError> errors;
   for (const Reading& reading : problem.readings) {
     const Residual r = ResidualAt(problem, reading, estimate);
-    errors.push_back(
-        {reading.id, r.head<3>().norm(), r.size() > 3 ? r.tail(r.size() - 3).norm() : -1.0});
+    const Eigen::Index rotations = RotationRowsOf(reading);
+    errors.push_back({reading.id, r.head(r.size() - rotations).norm(),
+                      rotations > 0 ? r.tail(rotations).norm() : -1.0});
   }
   return errors;
 }

@@ -49,7 +49,7 @@ constexpr double kLargestAngle_rad = 0.1745;
 
 void JudgeSizes(const Eigen::VectorXd& lambda, const ParameterSet& parameters, Verdict* verdict) {
   for (int i = 0; i < static_cast<int>(lambda.size()); ++i) {
-    const bool angle = parameters[i].is_angle;
+    const bool angle = parameters[i].is_angle();
     if (std::abs(lambda(i)) <= (angle ? kLargestAngle_rad : kLargestLength_m)) continue;
     verdict->decision = Decision::kDoNotApply;
     const double shown = lambda(i) * (angle ? 180 / std::numbers::pi : 1e3);

@@ -86,7 +86,7 @@ absl::StatusOr<WholeFrames> FramesOfWhole(const CalibrationProblem& whole, const
   frames.estimate.lambda = of_part.estimate.lambda;
   const std::vector<int> unknown = UnknownFrames(problem, options);
   if (!unknown.empty())
-    Minimise(problem, of_part.model_error, unknown, SolveOptions{}, hooks, &frames.estimate);
+    Solve(problem, of_part.model_error, unknown, SolveOptions{}, hooks, &frames.estimate);
   return frames;
 }
 

@@ -36,10 +36,10 @@ Twist Remainder(const Pose& desired, const Pose& X_BF) {
 
 // The least step of least squares: J'(JJ' + d I)^-1 e where there are joints enough, else (J'J + d
 // I)^-1 J'e.
-Eigen::VectorXd NewtonStep(const Sweep& sweep, const Twist& remainder) {
+Eigen::VectorXd NewtonStep(const ModelSweep& sweep, const Twist& remainder) {
   Eigen::Matrix<double, 6, Eigen::Dynamic> J(6, sweep.J_joints.cols());
   for (Eigen::Index i = 0; i < J.cols(); ++i)
-    J.col(i) = TwistAt(sweep.X_0E.p, sweep.J_joints.col(i));
+    J.col(i) = TwistAt(sweep.X_BF.p, sweep.J_joints.col(i));
   Eigen::VectorXd step;
   if (J.cols() >= 6) {
     Eigen::Matrix<double, 6, 6> normal = J * J.transpose();
@@ -114,11 +114,11 @@ absl::StatusOr<Compensated> SolvePose(const Model& model, const Eigen::VectorXd&
                                       const CompensationOptions& options) {
   Compensated result;
   result.q = q_start;
-  Sweep sweep;
+  ModelSweep sweep;
   double step_size = std::numeric_limits<double>::infinity();
   for (;; ++result.iterations) {
-    RunSweep(model.chain, result.q.data(), lambda.data(), &sweep);
-    const Twist remainder = Remainder(X_BF_desired, sweep.X_0E);
+    RunSweep(model, result.q.data(), lambda.data(), {}, &sweep);
+    const Twist remainder = Remainder(X_BF_desired, sweep.X_BF);
     result.position_residual_m = remainder.head<3>().norm();
     result.rotation_residual_rad = remainder.tail<3>().norm();
     if (step_size < options.step_tolerance || result.iterations == options.max_iterations) break;
@@ -137,7 +137,7 @@ absl::StatusOr<Compensated> CompensateJoints(const Model& model, const Eigen::Ve
                                              const Eigen::VectorXd& q_target,
                                              const CompensationOptions& options) {
   const Eigen::VectorXd nominal = Eigen::VectorXd::Zero(lambda.size());
-  return SolvePose(model, lambda, Forward(model.chain, q_target, nominal), q_target, options);
+  return SolvePose(model, lambda, Forward(model, q_target, nominal), q_target, options);
 }
 
 absl::StatusOr<Eigen::VectorXd> NominalInverse(const Robot& robot, const Model& model,

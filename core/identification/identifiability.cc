@@ -84,7 +84,7 @@ bool IsUndetermined(const Parameter& parameter, double unexplained,
                     const IdentifiabilityOptions& options) {
   if (!options.use_sd_bounds || parameter.role == ParameterRole::kExternal) return false;
   return 1 / unexplained >
-         (parameter.is_angle ? options.most_angle_sd_rad : options.most_length_sd_m);
+         (parameter.is_angle() ? options.most_angle_sd_rad : options.most_length_sd_m);
 }
 
 double ScaledCondition(const Eigen::MatrixXd& columns, const std::vector<int>& kept) {

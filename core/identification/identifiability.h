@@ -55,8 +55,9 @@ IdentifiableSet Identifiable(const Eigen::MatrixXd& J, const ParameterSet& candi
                              const IdentifiabilityOptions& options);
 
 // The same on generic poses of the problem's robot: joints drawn within +-1.5 rad and +-0.3 m of
-// `middle`, the kinds of measurement that the problem has, one placement and one target. What is
-// dropped here is dropped for any readings.
+// the middle of the limits, for every sort of reading that the problem has, with its placements and
+// targets anywhere. What is dropped here is dropped for any readings. Candidates are the problem's.
+// @param problem at least one reading.
 IdentifiableSet GenericIdentifiable(const Problem& problem, const Robot& robot);
 
 // "dbeta2 acts as 1 dq2 - 612.7 mm/rad db3": for people, terms by size. Relations that involve base

@@ -36,9 +36,8 @@ absl::Status SolveWithWeights(const Problem& problem, const std::vector<int>& ac
                               const IdentifyOptions& options, const Hooks& hooks,
                               Identification* result) {
   for (int round = 0; round < options.max_weight_rounds; ++round) {
-    Accumulate(
-        Minimise(problem, result->model_error, active, options.solve, hooks, &result->estimate),
-        &result->summary);
+    Accumulate(Solve(problem, result->model_error, active, options.solve, hooks, &result->estimate),
+               &result->summary);
     if (result->summary.termination == Termination::kCancelled)
       return absl::CancelledError("cancelled");
     if (result->summary.termination == Termination::kFailed) return absl::OkStatus();
@@ -63,7 +62,7 @@ IdentifiableSet ExternalSet(const Eigen::MatrixXd& J, const Problem& problem,
 }
 
 // (J'J)^-1 of the active columns, by QR of the columns scaled to norm 1.
-Eigen::MatrixXd CovarianceOf(const Eigen::MatrixXd& J, const std::vector<int>& active) {
+Eigen::MatrixXd ParameterCovariance(const Eigen::MatrixXd& J, const std::vector<int>& active) {
   Eigen::MatrixXd columns = J(Eigen::all, active);
   const Eigen::VectorXd scale = columns.colwise().norm().cwiseInverse();
   columns = columns * scale.asDiagonal();
@@ -78,27 +77,32 @@ void Finish(const Problem& problem, Identification* result) {
   const WhitenedSystem system = Whitened(problem, result->estimate, result->model_error);
   result->rows = static_cast<int>(system.r.size());
   const int redundancy = result->rows - static_cast<int>(result->set.active.size());
-  const double sum = system.r.cwiseQuotient(system.sd).squaredNorm();
+  const double sum = system.r.squaredNorm();
   result->weighted_residual_variance = redundancy > 0 ? sum / redundancy : 0;
   result->summary.final_cost = sum / 2;
   if (result->rows >= static_cast<int>(result->set.active.size())) {
-    result->covariance = CovarianceOf(system.J, result->set.active);
+    result->covariance = ParameterCovariance(system.J, result->set.active);
   }
 }
 
-// The candidate of the generic problem (one placement, one target) that stands for a candidate of
-// the real one.
-int GenericIndex(const Problem& problem, int candidate) {
-  if (candidate < problem.FirstOfTool(0)) return candidate % kFrameParameters;
-  if (candidate < problem.FirstInternal()) return kFrameParameters + candidate % kFrameParameters;
-  return 2 * kFrameParameters + candidate - problem.FirstInternal();
+// Whether a candidate is a base correction of a placement that is known by contact only.
+bool IsFreeByContact(const Problem& problem, int candidate) {
+  if (candidate >= problem.FirstOfTool(0)) return false;
+  const int placement = candidate / kFrameParameters;
+  return std::all_of(problem.readings.begin(), problem.readings.end(),
+                     [&](const Reading& r) { return r.placement != placement || r.contact; });
+}
+
+// Whether other readings of the same sort could not determine the candidate either.
+bool IsStructural(const Problem& problem, const IdentifiableSet& generic, int candidate) {
+  return !std::binary_search(generic.active.begin(), generic.active.end(), candidate) ||
+         IsFreeByContact(problem, candidate);
 }
 
 void MarkStructural(const Problem& problem, const IdentifiableSet& generic, IdentifiableSet* set) {
-  const std::set<int> possible(generic.active.begin(), generic.active.end());
   for (NullRelation& relation : set->redundancies) {
     relation.structural =
-        !relation.undetermined && !possible.contains(GenericIndex(problem, relation.dropped));
+        !relation.undetermined && IsStructural(problem, generic, relation.dropped);
   }
 }
 
@@ -156,12 +160,11 @@ absl::Status SolveKept(const Problem& problem, const Identification& before,
 
 absl::Status CheckFrames(const Problem& problem, const IdentifiableSet& generic,
                          const IdentifiableSet& actual) {
-  const std::set<int> possible(generic.active.begin(), generic.active.end());
   const ParameterSet names = Candidates(problem);
   FaultList faults;
   for (const NullRelation& relation : actual.redundancies) {
     if (relation.dropped >= problem.FirstInternal() ||
-        !possible.contains(GenericIndex(problem, relation.dropped)))
+        IsStructural(problem, generic, relation.dropped))
       continue;
     faults.Add(names[relation.dropped].name,
                absl::StrCat("not determined by ", problem.readings.size(),

@@ -10,7 +10,7 @@
 
 #include "absl/status/statusor.h"
 #include "core/identification/identifiability.h"
-#include "core/identification/levenberg_marquardt.h"
+#include "core/identification/solve.h"
 #include "core/identification/start_values.h"
 
 namespace truepose {

@@ -12,32 +12,35 @@ namespace {
 
 using Corrections = std::vector<std::array<double, kFrameParameters>>;
 
-// One reading as a residual block over (base corrections, tool corrections, internal parameters).
+// One reading as a residual block over (base corrections, tool corrections, internal parameters
+// [, constant of a distance]).
 class ReadingCost final : public ceres::CostFunction {
  public:
-  ReadingCost(const Model& model, const Reading& reading, const Pose& X_MB, const Pose& X_FT,
-              const ModelError& model_error, Workspace* workspace)
+  ReadingCost(const Model& model, const Reading& reading, const Estimate& start,
+              const ResidualMatrix& whitener, Workspace* workspace)
       : model_(model),
         reading_(reading),
-        X_MB_(X_MB),
-        X_FT_(X_FT),
-        weight_(StandardDeviations(reading, model_error).cwiseInverse()),
+        start_(PointOf(reading, start)),
+        whitener_(whitener),
         workspace_(workspace) {
     set_num_residuals(RowsOf(reading));
     *mutable_parameter_block_sizes() = {kFrameParameters, kFrameParameters,
                                         model.parameters.size()};
+    if (reading.offset >= 0) mutable_parameter_block_sizes()->push_back(1);
   }
 
   bool Evaluate(double const* const* p, double* residuals, double** jacobians) const override {
     Residual r;
     ReadingJacobian J;
-    EvaluateReading(model_, reading_, X_MB_, X_FT_, p[0], p[1], p[2], workspace_, &r,
-                    jacobians == nullptr ? nullptr : &J);
-    Eigen::Map<Eigen::VectorXd>(residuals, r.size()) = weight_.cwiseProduct(r);
+    const bool has_offset = reading_.offset >= 0;
+    const ReadingPoint at = {start_.X_MB, start_.X_FT, p[0], p[1], has_offset ? *p[3] : 0, p[2]};
+    EvaluateReading(model_, reading_, at, workspace_, &r, jacobians == nullptr ? nullptr : &J);
+    Eigen::Map<Eigen::VectorXd>(residuals, r.size()) = whitener_ * r;
     if (jacobians == nullptr) return true;
     CopyTo(J.base, jacobians[0]);
     CopyTo(J.tool, jacobians[1]);
     CopyTo(J.internal, jacobians[2]);
+    if (has_offset) CopyTo(J.offset, jacobians[3]);
     return true;
   }
 
@@ -45,14 +48,36 @@ class ReadingCost final : public ceres::CostFunction {
   void CopyTo(const RowJacobian& J, double* out) const {
     if (out == nullptr) return;
     Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
-        out, J.rows(), J.cols()) = weight_.asDiagonal() * J;
+        out, J.rows(), J.cols()) = whitener_ * J;
   }
 
   const Model& model_;
   const Reading& reading_;
-  const Pose &X_MB_, &X_FT_;
-  const Residual weight_;
+  const ReadingPoint start_;
+  const ResidualMatrix whitener_;
   Workspace* const workspace_;  // the solver runs in one thread: same inputs, same bits
+};
+
+// The prior's rows, root (mean - lambda).
+class PriorCost final : public ceres::CostFunction {
+ public:
+  explicit PriorCost(const Prior& prior) : prior_(prior) {
+    set_num_residuals(static_cast<int>(prior.root.rows()));
+    *mutable_parameter_block_sizes() = {static_cast<int>(prior.root.cols())};
+  }
+
+  bool Evaluate(double const* const* p, double* residuals, double** jacobians) const override {
+    const Eigen::Map<const Eigen::VectorXd> lambda(p[0], prior_.root.cols());
+    Eigen::Map<Eigen::VectorXd>(residuals, prior_.root.rows()) =
+        prior_.root * (prior_.mean - lambda);
+    if (jacobians == nullptr || jacobians[0] == nullptr) return true;
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+        jacobians[0], prior_.root.rows(), prior_.root.cols()) = -prior_.root;
+    return true;
+  }
+
+ private:
+  const Prior& prior_;
 };
 
 class HooksCallback final : public ceres::IterationCallback {
@@ -114,20 +139,28 @@ void MoveFrames(const Corrections& corrections, std::vector<Pose>* frames) {
   }
 }
 
-// The solver's view of a problem: its blocks of variables and one residual block a reading.
+// The solver's view of a problem: its blocks of variables, one residual block a reading, and the
+// prior's.
 class Blocks {
  public:
   Blocks(const Problem& problem, const ModelError& model_error, const std::vector<int>& active,
          const Estimate& start)
-      : base_(problem.placements.size()), tool_(problem.targets.size()), lambda_(start.lambda) {
-    ceres::Problem::Options options;
-    solver_ = std::make_unique<ceres::Problem>(options);
+      : base_(problem.placements.size()),
+        tool_(problem.targets.size()),
+        lambda_(start.lambda),
+        offsets_(start.offsets) {
+    solver_ = std::make_unique<ceres::Problem>();
     for (const Reading& reading : problem.readings) {
+      std::vector<double*> blocks = {base_[reading.placement].data(), tool_[reading.target].data(),
+                                     lambda_.data()};
+      if (reading.offset >= 0) blocks.push_back(&offsets_(reading.offset));
       solver_->AddResidualBlock(
-          new ReadingCost(*problem.model, reading, start.X_MB[reading.placement],
-                          start.X_FT[reading.target], model_error, &workspace_),
-          nullptr, base_[reading.placement].data(), tool_[reading.target].data(), lambda_.data());
+          new ReadingCost(*problem.model, reading, start,
+                          WhitenerOf(problem, reading, start, model_error), &workspace_),
+          nullptr, blocks);
     }
+    if (problem.prior)
+      solver_->AddResidualBlock(new PriorCost(*problem.prior), nullptr, lambda_.data());
     Hold(problem, active);
   }
 
@@ -137,6 +170,7 @@ class Blocks {
     MoveFrames(base_, &estimate->X_MB);
     MoveFrames(tool_, &estimate->X_FT);
     estimate->lambda = lambda_;
+    estimate->offsets = offsets_;
   }
 
  private:
@@ -151,31 +185,21 @@ class Blocks {
       HoldInactive(is_active, problem.FirstOfTool(static_cast<int>(i)), kFrameParameters,
                    tool_[i].data(), solver_.get());
     }
+    for (Eigen::Index i = 0; i < offsets_.size(); ++i) {
+      HoldInactive(is_active, problem.FirstOfOffsets() + static_cast<int>(i), 1, &offsets_(i),
+                   solver_.get());
+    }
     HoldInactive(is_active, problem.FirstInternal(), static_cast<int>(lambda_.size()),
                  lambda_.data(), solver_.get());
   }
 
   Corrections base_, tool_;
-  Eigen::VectorXd lambda_;
+  Eigen::VectorXd lambda_, offsets_;
   Workspace workspace_;
   std::unique_ptr<ceres::Problem> solver_;
 };
 
 }  // namespace
-
-const char* Name(Termination termination) {
-  switch (termination) {
-    case Termination::kConverged:
-      return "converged";
-    case Termination::kIterationLimit:
-      return "iteration_limit";
-    case Termination::kCancelled:
-      return "cancelled";
-    case Termination::kFailed:
-      break;
-  }
-  return "failed";
-}
 
 SolveSummary Minimise(const Problem& problem, const ModelError& model_error,
                       const std::vector<int>& active, const SolveOptions& options,

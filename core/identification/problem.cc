@@ -2,6 +2,8 @@
 
 #include <numeric>
 
+#include "absl/strings/str_cat.h"
+
 namespace truepose {
 namespace {
 
@@ -19,13 +21,18 @@ ParameterSet Candidates(const Problem& problem) {
   ParameterSet set;
   AddFrames(ParameterGroup::kBase, problem.placements, &set);
   AddFrames(ParameterGroup::kTool, problem.targets, &set);
+  for (const std::string& label : problem.offsets) {
+    set.Add({absl::StrCat("offset[", label, "]"), ParameterGroup::kInstrument,
+             ParameterRole::kExternal, Unit::kMetre});
+  }
   for (const Parameter& parameter : problem.model->parameters) set.Add(parameter);
   return set;
 }
 
 Estimate NominalEstimate(const Problem& problem) {
   return {std::vector<Pose>(problem.placements.size()), std::vector<Pose>(problem.targets.size()),
-          Eigen::VectorXd::Zero(problem.model->parameters.size())};
+          Eigen::VectorXd::Zero(problem.model->parameters.size()),
+          Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.offsets.size()))};
 }
 
 std::vector<int> ExternalCandidates(const Problem& problem) {

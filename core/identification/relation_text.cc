@@ -12,8 +12,8 @@ namespace {
 // A coefficient is unit of the dropped one by unit of the kept one; mm where one of the two is a
 // length.
 std::string Term(const Parameter& dropped, const Parameter& kept, double c) {
-  if (dropped.is_angle == kept.is_angle) return absl::StrFormat("%+.6g %s", c, kept.name);
-  if (dropped.is_angle) return absl::StrFormat("%+.6g mm/rad %s", 1e3 * c, kept.name);
+  if (dropped.is_angle() == kept.is_angle()) return absl::StrFormat("%+.6g %s", c, kept.name);
+  if (dropped.is_angle()) return absl::StrFormat("%+.6g mm/rad %s", 1e3 * c, kept.name);
   return absl::StrFormat("%+.6g rad/mm %s", 1e-3 * c, kept.name);
 }
 

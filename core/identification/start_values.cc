@@ -4,8 +4,8 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/base/fault.h"
-#include "core/identification/levenberg_marquardt.h"
 #include "core/identification/prediction.h"
+#include "core/identification/solve.h"
 #include "core/identification/start_candidates.h"
 
 namespace truepose {
@@ -38,19 +38,13 @@ std::vector<NominalReading> WithNominal(const Problem& problem) {
   const Eigen::VectorXd nominal = Eigen::VectorXd::Zero(problem.model->parameters.size());
   std::vector<NominalReading> readings;
   for (const Reading& reading : problem.readings) {
-    readings.push_back({&reading, Forward(problem.model->chain, reading.q, nominal)});
+    readings.push_back({&reading, Forward(*problem.model, reading.q, nominal, reading.conditions)});
   }
   return readings;
 }
 
-double CostOf(const Problem& problem, const Estimate& estimate) {
-  double sum = 0;
-  for (const Reading& reading : problem.readings) {
-    sum += ResidualAt(problem, reading, estimate)
-               .cwiseQuotient(StandardDeviations(reading, kStartWeights))
-               .squaredNorm();
-  }
-  return sum / 2;
+double StartCost(const Problem& problem, const Estimate& estimate) {
+  return CostOf(problem, estimate, WhitenersOf(problem, estimate, kStartWeights));
 }
 
 Estimate EstimateOf(const Problem& problem, const FramePair& pair) {
@@ -71,7 +65,7 @@ std::vector<Start> BestStarts(const Problem& problem, const std::optional<Pose>&
   std::vector<Start> starts;
   for (const FramePair& pair : StartCandidates(WithNominal(problem), X_FT)) {
     Estimate estimate = EstimateOf(problem, pair);
-    starts.push_back({CostOf(problem, estimate), std::move(estimate)});
+    starts.push_back({StartCost(problem, estimate), std::move(estimate)});
   }
   std::stable_sort(starts.begin(), starts.end(), ByCost);
   if (starts.size() > kStartsToRefine) starts.resize(kStartsToRefine);
@@ -82,8 +76,8 @@ double Refine(const Problem& problem, Estimate* estimate) {
   SolveOptions options;
   options.max_iterations = 50;
   options.function_tolerance = 1e-9;
-  Minimise(problem, kStartWeights, ExternalCandidates(problem), options, Hooks{}, estimate);
-  return CostOf(problem, *estimate);
+  Solve(problem, kStartWeights, ExternalCandidates(problem), options, Hooks{}, estimate);
+  return StartCost(problem, *estimate);
 }
 
 // Both frames of a pair of which nothing is known.

@@ -1,7 +1,6 @@
 #include "core/identification/weights.h"
 
 #include <Eigen/Cholesky>
-#include <algorithm>
 #include <cmath>
 
 #include "core/identification/prediction.h"
@@ -9,123 +8,163 @@
 namespace truepose {
 namespace {
 
-constexpr double kPositionFloor_m = 1e-7;
-constexpr double kRotationFloor_rad = 1e-8;
+// A stated covariance may be singular (a coordinate that a fixture gives exactly); s_model is added
+// before it is inverted, and this keeps a reading without any from dividing by zero.
+constexpr double kLeastVariance = 1e-18;
+
+bool NeedsFullCovariance(const Reading& reading) {
+  return reading.covariance.has_value() || reading.joint_sd.size() > 0 ||
+         reading.kind == ObservationKind::kDistance;
+}
+
+// S_stated + J_q S_q J_q' as the residual sees it, for readings whose rows are correlated.
+ResidualMatrix FullStated(const Problem& problem, const Reading& reading,
+                          const Estimate& estimate) {
+  Residual r;
+  ResidualByTwist D;
+  KindOf(reading.kind).evaluate(reading, Predict(problem, reading, estimate), &r, &D);
+  Eigen::Matrix<double, 6, 6> pose = Eigen::Matrix<double, 6, 6>::Zero();
+  pose.diagonal() << reading.position_sd_m.array().square(),
+      Eigen::Array3d::Constant(reading.rotation_sd_rad * reading.rotation_sd_rad);
+  if (reading.covariance) pose += *reading.covariance;
+  ResidualMatrix R = D * pose * D.transpose();
+  if (reading.joint_sd.size() > 0) {
+    Workspace workspace;
+    const RowJacobian J = JointJacobian(problem, reading, estimate, &workspace);
+    R += J * reading.joint_sd.array().square().matrix().asDiagonal() * J.transpose();
+  }
+  return R;
+}
+
+// The same where rows are not correlated; no kinematics needed.
+ResidualMatrix DiagonalStated(const Reading& reading) {
+  Residual variances(RowsOf(reading));
+  int row = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool has = reading.kind != ObservationKind::kCoordinates || reading.coordinates[axis];
+    if (has) variances(row++) = reading.position_sd_m(axis) * reading.position_sd_m(axis);
+  }
+  variances.tail(variances.size() - row)
+      .setConstant(reading.rotation_sd_rad * reading.rotation_sd_rad);
+  return variances.asDiagonal();
+}
+
+// R without the weight.
+ResidualMatrix Unweighted(const Problem& problem, const Reading& reading, const Estimate& estimate,
+                          const ModelError& error) {
+  ResidualMatrix R = NeedsFullCovariance(reading) ? FullStated(problem, reading, estimate)
+                                                  : DiagonalStated(reading);
+  const int positions = PositionRowsOf(reading);
+  const auto variance = [](double sd) { return std::max(sd * sd, kLeastVariance); };
+  R.diagonal().head(positions).array() += variance(error.position_sd_m);
+  R.diagonal().tail(R.rows() - positions).array() += variance(error.rotation_sd_rad);
+  return R;
+}
 
 int RowCount(const Problem& problem) {
-  int rows = 0;
+  int rows = problem.prior ? static_cast<int>(problem.prior->root.rows()) : 0;
   for (const Reading& reading : problem.readings) rows += RowsOf(reading);
   return rows;
 }
 
-void FillReading(const Problem& problem, const Reading& reading, int row, const Residual& r,
-                 const Residual& sd, const ReadingJacobian& J, WhitenedSystem* system) {
-  const Eigen::Index rows = r.size();
-  const auto weight = sd.cwiseInverse().asDiagonal();
-  system->r.segment(row, rows) = r;
-  system->sd.segment(row, rows) = sd;
-  for (Eigen::Index i = 0; i < rows; ++i) system->rotation[row + i] = i >= 3;
-  system->J.block(row, problem.FirstOfBase(reading.placement), rows, kFrameParameters) =
-      weight * J.base;
-  system->J.block(row, problem.FirstOfTool(reading.target), rows, kFrameParameters) =
-      weight * J.tool;
-  system->J.block(row, problem.FirstInternal(), rows, J.internal.cols()) = weight * J.internal;
+WhitenedSystem Empty(const Problem& problem) {
+  const int rows = RowCount(problem);
+  WhitenedSystem system;
+  system.r = system.raw = Eigen::VectorXd::Zero(rows);
+  system.sd = system.weight = Eigen::VectorXd::Ones(rows);
+  system.kind.assign(rows, WhitenedSystem::Row::kPrior);
+  system.J = Eigen::MatrixXd::Zero(rows, problem.CandidateCount());
+  return system;
 }
 
-// Rows of one group: squared residuals and squared stated deviations.
-struct GroupRows {
-  std::vector<double> squared_residual, stated_variance;
-  double redundancy = 0;
-};
-
-double WeightedSum(const GroupRows& rows, double variance) {
-  double sum = 0;
-  for (size_t i = 0; i < rows.squared_residual.size(); ++i) {
-    sum += rows.squared_residual[i] / (rows.stated_variance[i] + variance);
-  }
-  return sum;
+void FillJacobian(const Problem& problem, const Reading& reading, int row, const ResidualMatrix& W,
+                  const ReadingJacobian& J, Eigen::MatrixXd* out) {
+  const Eigen::Index rows = W.rows();
+  out->block(row, problem.FirstOfBase(reading.placement), rows, kFrameParameters) = W * J.base;
+  out->block(row, problem.FirstOfTool(reading.target), rows, kFrameParameters) = W * J.tool;
+  if (reading.offset >= 0)
+    out->col(problem.FirstOfOffsets() + reading.offset).segment(row, rows) = W * J.offset;
+  out->block(row, problem.FirstInternal(), rows, J.internal.cols()) = W * J.internal;
 }
 
-// The variance at which the weighted sum is the redundancy, by bisection of its logarithm (the sum
-// falls with it).
-double SolveVariance(const GroupRows& rows, double floor) {
-  double low = floor * floor, high = low;
-  for (double r2 : rows.squared_residual) high = std::max(high, r2);
-  if (rows.redundancy <= 0 || WeightedSum(rows, low) <= rows.redundancy) return low;
-  high *= rows.squared_residual.size() / rows.redundancy;
-  for (int i = 0; i < 200 && high > low * (1 + 1e-14); ++i) {
-    const double middle = std::sqrt(low * high);
-    (WeightedSum(rows, middle) > rows.redundancy ? low : high) = middle;
+void FillRows(const Problem& problem, const Reading& reading, const Estimate& estimate,
+              const ModelError& error, int row, WhitenedSystem* system) {
+  const int rows = RowsOf(reading), positions = PositionRowsOf(reading);
+  system->sd.segment(row, rows) =
+      Unweighted(problem, reading, estimate, error).diagonal().cwiseSqrt();
+  system->weight.segment(row, rows).setConstant(reading.weight);
+  for (int i = 0; i < rows; ++i) {
+    system->kind[row + i] =
+        i < positions ? WhitenedSystem::Row::kPosition : WhitenedSystem::Row::kRotation;
   }
-  return std::sqrt(low * high);
 }
 
-GroupRows CollectGroup(const WhitenedSystem& system, bool rotation, double model_sd) {
-  GroupRows rows;
-  for (Eigen::Index i = 0; i < system.r.size(); ++i) {
-    if (system.rotation[i] != rotation) continue;
-    rows.squared_residual.push_back(system.r(i) * system.r(i));
-    rows.stated_variance.push_back(
-        std::max(0.0, system.sd(i) * system.sd(i) - model_sd * model_sd));
-  }
-  return rows;
-}
-
-// trace((J'J)^-1 J_g'J_g): the parameters' share of the group. Columns are scaled, so the condition
-// is that of the directions and not of the units.
-double ShareOfGroup(const WhitenedSystem& system, const std::vector<int>& active, bool rotation) {
-  Eigen::MatrixXd J = system.J(Eigen::all, active);
-  for (Eigen::Index i = 0; i < J.cols(); ++i) J.col(i) /= std::max(J.col(i).norm(), 1e-300);
-  const Eigen::LLT<Eigen::MatrixXd> normal(J.transpose() * J);
-  for (Eigen::Index i = 0; i < J.rows(); ++i) {
-    if (system.rotation[i] != rotation) J.row(i).setZero();
-  }
-  return normal.solve(J.transpose() * J).trace();
+void FillPrior(const Problem& problem, const Estimate& estimate, int row, WhitenedSystem* system) {
+  if (!problem.prior) return;
+  const Prior& prior = *problem.prior;
+  const Eigen::Index rows = prior.root.rows();
+  system->r.segment(row, rows) = prior.root * (prior.mean - estimate.lambda);
+  system->J.block(row, problem.FirstInternal(), rows, prior.root.cols()) = -prior.root;
 }
 
 }  // namespace
 
-Residual StandardDeviations(const Reading& reading, const ModelError& model_error) {
-  Residual sd(RowsOf(reading));
-  const double p2 = model_error.position_sd_m * model_error.position_sd_m;
-  sd.head<3>() = (reading.position_sd_m.array().square() + p2).sqrt();
-  sd.tail(sd.size() - 3).setConstant(model_error.rotation_sd_rad);
-  return sd;
+ResidualMatrix CovarianceOf(const Problem& problem, const Reading& reading,
+                            const Estimate& estimate, const ModelError& model_error) {
+  return Unweighted(problem, reading, estimate, model_error) / reading.weight;
+}
+
+ResidualMatrix WhitenerOf(const Problem& problem, const Reading& reading, const Estimate& estimate,
+                          const ModelError& model_error) {
+  const ResidualMatrix R = Unweighted(problem, reading, estimate, model_error);
+  if (!NeedsFullCovariance(reading))
+    return (std::sqrt(reading.weight) * R.diagonal().cwiseSqrt().cwiseInverse()).asDiagonal();
+  const ResidualMatrix L = R.llt().matrixL();
+  return L.triangularView<Eigen::Lower>().solve(
+      ResidualMatrix(std::sqrt(reading.weight) * ResidualMatrix::Identity(R.rows(), R.cols())));
+}
+
+Whiteners WhitenersOf(const Problem& problem, const Estimate& estimate,
+                      const ModelError& model_error) {
+  Whiteners whiteners;
+  whiteners.reserve(problem.readings.size());
+  for (const Reading& reading : problem.readings)
+    whiteners.push_back(WhitenerOf(problem, reading, estimate, model_error));
+  return whiteners;
 }
 
 WhitenedSystem Whitened(const Problem& problem, const Estimate& estimate,
                         const ModelError& model_error) {
-  const int rows = RowCount(problem);
-  WhitenedSystem system{Eigen::VectorXd(rows), Eigen::VectorXd(rows), std::vector<bool>(rows),
-                        Eigen::MatrixXd::Zero(rows, problem.CandidateCount())};
-  const double zero[kFrameParameters] = {};
+  return Whitened(problem, estimate, model_error, WhitenersOf(problem, estimate, model_error));
+}
+
+WhitenedSystem Whitened(const Problem& problem, const Estimate& estimate,
+                        const ModelError& model_error, const Whiteners& whiteners) {
+  WhitenedSystem system = Empty(problem);
   Workspace workspace;
   Residual r;
   ReadingJacobian J;
   int row = 0;
-  for (const Reading& reading : problem.readings) {
-    EvaluateReading(*problem.model, reading, estimate.X_MB[reading.placement],
-                    estimate.X_FT[reading.target], zero, zero, estimate.lambda.data(), &workspace,
-                    &r, &J);
-    FillReading(problem, reading, row, r, StandardDeviations(reading, model_error), J, &system);
+  for (size_t i = 0; i < problem.readings.size(); ++i) {
+    const Reading& reading = problem.readings[i];
+    EvaluateReading(*problem.model, reading, PointOf(reading, estimate), &workspace, &r, &J);
+    system.raw.segment(row, r.size()) = r;
+    system.r.segment(row, r.size()) = whiteners[i] * r;
+    FillJacobian(problem, reading, row, whiteners[i], J, &system.J);
+    FillRows(problem, reading, estimate, model_error, row, &system);
     row += static_cast<int>(r.size());
   }
+  FillPrior(problem, estimate, row, &system);
   return system;
 }
 
-ModelError EstimateModelError(const Problem& problem, const Estimate& estimate,
-                              const std::vector<int>& active, const ModelError& current) {
-  const WhitenedSystem system = Whitened(problem, estimate, current);
-  GroupRows position = CollectGroup(system, false, current.position_sd_m);
-  GroupRows rotation = CollectGroup(system, true, current.rotation_sd_rad);
-  position.redundancy = position.squared_residual.size() - ShareOfGroup(system, active, false);
-  rotation.redundancy = rotation.squared_residual.size() - ShareOfGroup(system, active, true);
-  ModelError estimate_of_error = current;
-  estimate_of_error.position_sd_m = std::sqrt(SolveVariance(position, kPositionFloor_m));
-  if (!rotation.squared_residual.empty()) {
-    estimate_of_error.rotation_sd_rad = std::sqrt(SolveVariance(rotation, kRotationFloor_rad));
-  }
-  return estimate_of_error;
+double CostOf(const Problem& problem, const Estimate& estimate, const Whiteners& whiteners) {
+  double sum = 0;
+  for (size_t i = 0; i < problem.readings.size(); ++i)
+    sum += (whiteners[i] * ResidualAt(problem, problem.readings[i], estimate)).squaredNorm();
+  if (problem.prior)
+    sum += (problem.prior->root * (problem.prior->mean - estimate.lambda)).squaredNorm();
+  return sum / 2;
 }
 
 }  // namespace truepose

@@ -36,7 +36,8 @@ Parameter FrameParameter(ParameterGroup group, std::string_view label, int index
   const std::string frame = group == ParameterGroup::kBase ? "base" : "tool";
   const std::string owner =
       label.empty() ? frame : absl::StrCat(frame, "[", std::string(label), "]");
-  return {absl::StrCat(owner, ".", kNames[index]), group, ParameterRole::kExternal, index >= 3};
+  return {absl::StrCat(owner, ".", kNames[index]), group, ParameterRole::kExternal,
+          index >= 3 ? Unit::kRadian : Unit::kMetre};
 }
 
 }  // namespace truepose

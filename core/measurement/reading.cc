@@ -1,5 +1,6 @@
 #include "core/measurement/reading.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -64,16 +65,51 @@ void EvaluatePointAxis(const Reading& reading, const Pose& X_MT, Residual* r, Re
   D->bottomRightCorner<2, 3>() = rows * derivative;
 }
 
-constexpr std::array<MeasurementKind, 3> kKinds = {{
-    {ObservationKind::kPose, "pose", 3, EvaluatePose},
-    {ObservationKind::kPoint, "point", 0, EvaluatePoint},
-    {ObservationKind::kPointAxis, "point_axis", 2, EvaluatePointAxis},
+// The measured ones of x, y, z.
+void EvaluateCoordinates(const Reading& reading, const Pose& X_MT, Residual* r,
+                         ResidualByTwist* D) {
+  const int rows = PositionRowsOf(reading);
+  r->resize(rows);
+  if (D != nullptr) D->setZero(rows, 6);
+  for (int axis = 0, row = 0; axis < 3; ++axis) {
+    if (!reading.coordinates[axis]) continue;
+    (*r)(row) = reading.X_MT.p(axis) - X_MT.p(axis);
+    if (D != nullptr) (*D)(row, axis) = -1;
+    ++row;
+  }
+}
+
+// d = |p - a|, dd = u . v. At the anchor itself no direction is better than another: the derivative
+// is taken as zero there.
+void EvaluateDistance(const Reading& reading, const Pose& X_MT, Residual* r, ResidualByTwist* D) {
+  const Eigen::Vector3d line = X_MT.p - reading.anchor_M;
+  const double length = line.norm();
+  r->resize(1);
+  (*r)(0) = reading.distance_m - length;
+  if (D == nullptr) return;
+  D->setZero(1, 6);
+  if (length > 0) D->leftCols<3>() = -line.transpose() / length;
+}
+
+constexpr std::array<MeasurementKind, 5> kKinds = {{
+    {ObservationKind::kPose, "pose", 3, 3, EvaluatePose},
+    {ObservationKind::kPoint, "point", 3, 0, EvaluatePoint},
+    {ObservationKind::kPointAxis, "point_axis", 3, 2, EvaluatePointAxis},
+    {ObservationKind::kCoordinates, "coordinates", 3, 0, EvaluateCoordinates},
+    {ObservationKind::kDistance, "distance", 1, 0, EvaluateDistance},
 }};
 
 }  // namespace
 
 const MeasurementKind& KindOf(ObservationKind kind) { return kKinds[static_cast<size_t>(kind)]; }
 
-int RowsOf(const Reading& reading) { return 3 + KindOf(reading.kind).rotation_rows; }
+int PositionRowsOf(const Reading& reading) {
+  if (reading.kind != ObservationKind::kCoordinates) return KindOf(reading.kind).position_rows;
+  return static_cast<int>(std::count(reading.coordinates.begin(), reading.coordinates.end(), true));
+}
+
+int RotationRowsOf(const Reading& reading) { return KindOf(reading.kind).rotation_rows; }
+
+int RowsOf(const Reading& reading) { return PositionRowsOf(reading) + RotationRowsOf(reading); }
 
 }  // namespace truepose

@@ -5,31 +5,61 @@
 // R_MT_predicted^T) in rad; for an axis the two components, perpendicular to the measured axis, of
 // the rotation vector that carries the predicted axis to it. Position and rotation are taken
 // separately (chapter-notes 14), so orientation noise does not leak into position.
+//
+// What looks like further kinds is one of these with the right frame M:
+//   several points a reading   readings of kPoint with a target each
+//   a plane                    kCoordinates of z alone, z = 0, M in the plane (one placement a
+//   plane) ball in sockets            kPoint at the socket's place in a frame M of the socket block
+//   distance to an unknown point   kDistance to the origin of a placement of its own
+//   difference of distances    kDistance with an unknown constant (Reading::offset)
+//   pose matching              kPose or kPointAxis at the fixture's pose, with joint_sd
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <optional>
 #include <string_view>
 
 #include "core/geometry/pose.h"
+#include "core/robot/conditions.h"
 
 namespace truepose {
 
-enum class ObservationKind { kPose = 0, kPoint = 1, kPointAxis = 2 };
+enum class ObservationKind {
+  kPose = 0,
+  kPoint = 1,
+  kPointAxis = 2,
+  kCoordinates = 3,
+  kDistance = 4
+};
 
 struct Reading {
-  Eigen::VectorXd q;  // chain joints, rad or m
+  Eigen::VectorXd q;  // chain joints as read, rad or m
+  Conditions conditions;
   int placement = 0;  // which X_MB
   int target = 0;     // which X_FT
+  int offset = -1;    // which unknown constant is added to the distance; -1 none
   ObservationKind kind = ObservationKind::kPose;
   Pose X_MT;  // measured; R is used by kPose only
   Eigen::Vector3d axis_M =
       Eigen::Vector3d::UnitZ();  // measured unit z axis of T, used by kPointAxis only
-  Eigen::Vector3d position_sd_m =
-      Eigen::Vector3d::Zero();  // stated, per axis of M; 0 where none is stated
-  int id = 0;                   // the caller's name for it
+  std::array<bool, 3> coordinates = {true, true, true};  // which of x, y, z kCoordinates has
+  Eigen::Vector3d anchor_M = Eigen::Vector3d::Zero();    // kDistance: measured from here
+  double distance_m = 0;                                 // kDistance: the measured value
+  // Stated uncertainty, each zero or empty where none is stated. A distance takes position_sd_m
+  // along its line.
+  Eigen::Vector3d position_sd_m = Eigen::Vector3d::Zero();  // per axis of M
+  double rotation_sd_rad = 0;                               // per axis
+  Eigen::VectorXd joint_sd;  // of q; rad or m; carried through the joint Jacobian
+  std::optional<Eigen::Matrix<double, 6, 6>> covariance;  // of (position, rotation) in axes of M,
+                                                          // added to the two above
+  bool contact = false;  // the place is that of a fixture and not of an instrument: frames of M
+                         // that its places leave free (a turn about a line of sockets) are no fault
+  double weight = 1;  // of a robust loss: the whole covariance is divided by it
+  int id = 0;         // the caller's name for it
 };
 
-// Residual rows: 3 of position, then `rotation_rows`. At most 6.
+// Residual rows: position rows, then rotation rows. At most 6.
 using Residual = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
 using ResidualByTwist = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor, 6, 6>;
 
@@ -37,6 +67,7 @@ using ResidualByTwist = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor
 struct MeasurementKind {
   ObservationKind kind;
   std::string_view name;
+  int position_rows;  // of kCoordinates at most; see PositionRowsOf
   int rotation_rows;
   // @param X_MT predicted pose. @param r sized by the function. @param D nullptr, or the derivative
   // of r by the twist
@@ -45,6 +76,8 @@ struct MeasurementKind {
 };
 
 const MeasurementKind& KindOf(ObservationKind kind);
+int PositionRowsOf(const Reading& reading);
+int RotationRowsOf(const Reading& reading);
 int RowsOf(const Reading& reading);
 
 }  // namespace truepose

@@ -3,9 +3,12 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/chain/chain.h"
+#include "core/models/effects.h"
 #include "core/parameters/parameter_set.h"
+#include "core/robot/conditions.h"
 #include "core/robot/robot.h"
 
 namespace truepose {
@@ -16,13 +19,46 @@ enum class ModelExtent {
   kComplete,  // with B_0 before joint 1 and C after joint n, as in Table 3
 };
 
+// The rotation of Eq. 23 that carries z to (theta_x, theta_y, sqrt(1 - theta_x^2 - theta_y^2)), as
+// three elements of the chain: R(x, alpha) R(y, beta) R(z, gamma) with
+//   alpha = atan2(-theta_y, theta_z), beta = asin(theta_x),
+//   gamma = atan2(theta_x theta_y, 1 + theta_z - theta_x^2).
+// The chain's parameter `theta_x` is beta, its parameter `theta_y` alpha (to first order -theta_y),
+// and `gamma` a further parameter of the chain that the model does not have.
+struct Tilt {
+  int theta_x, theta_y, gamma;
+};
+
 struct Model {
   std::string kind;  // "modified_incremental"
   std::string
       convention;  // tag that gives the parameter values their meaning; stored with every set
-  Chain chain;     // parameters index `parameters`
-  ParameterSet parameters;  // all candidates; which are identifiable depends on the readings
+  Chain chain;     // from B to F; its parameters are the geometric ones of `parameters`, but tilts
+  ParameterSet parameters;  // all candidates, geometric first; which are identifiable depends on
+                            // the readings
+  std::vector<Tilt> tilts;  // of zhuang_roth
+  std::vector<JointEffect> effects;
+  JointMap joint_map;  // of the robot; effects act on controller joints
 };
+
+// X_BF(q, lambda). @param q chain joints as read. @param lambda the model's parameters.
+Pose Forward(const Model& model, const Eigen::VectorXd& q, const Eigen::VectorXd& lambda,
+             const Conditions& conditions = {});
+
+// Pose and Jacobians of one configuration; reused from call to call, one per thread. Columns are
+// twists at the origin of B, as those of Sweep.
+struct ModelSweep {
+  Pose X_BF;
+  Eigen::Matrix<double, 6, Eigen::Dynamic> J_joints;      // by chain joints as moved
+  Eigen::Matrix<double, 6, Eigen::Dynamic> J_parameters;  // by lambda
+  // Scratch.
+  Sweep chain;
+  Eigen::VectorXd q, mu;
+};
+
+// @param q chain joints as read, lambda the model's parameters.
+void RunSweep(const Model& model, const double* q, const double* lambda,
+              const Conditions& conditions, ModelSweep* sweep);
 
 // The modified incremental model (Eq. 24) of any chain of R and P joints, all candidates:
 //   M = A_0 B_0 D_1 A_1 B_1 D_2 A_2 ... D_n A_n C

@@ -72,8 +72,8 @@ class Builder {
   }
 
   int Add(const std::string& stem, int link, ParameterRole role, bool is_angle) {
-    return model_.parameters.Add(
-        {absl::StrCat(stem, link), ParameterGroup::kInternal, role, is_angle});
+    return model_.parameters.Add({absl::StrCat(stem, link), ParameterGroup::kInternal, role,
+                                  is_angle ? Unit::kRadian : Unit::kMetre});
   }
 
   const Robot& robot_;
@@ -88,6 +88,7 @@ Model ModifiedIncremental(const Robot& robot, ModelExtent extent) {
   model.kind = "modified_incremental";
   model.convention =
       "modified_incremental/1: B = Rx(dalpha) Ry(dbeta) Tx(da) Ty(db), D = Rz|Tz(dq)";
+  model.joint_map = robot.joint_map();
   Builder(robot, extent, &model).Run();
   return model;
 }

@@ -10,17 +10,30 @@
 
 namespace truepose {
 
-enum class ParameterGroup { kBase, kTool, kInternal };
+enum class ParameterGroup { kBase, kTool, kInstrument, kInternal };
 
 // What the parameter is to its joint; also the order in which parameters are preferred (see
 // identifiability.h).
-enum class ParameterRole { kExternal, kJointOffset, kLength, kAngle };
+enum class ParameterRole { kExternal, kJointOffset, kLength, kAngle, kEffect };
+
+// Of the value inside. Effects of joints have units of their own.
+enum class Unit {
+  kMetre,
+  kRadian,
+  kRatio,  // rad/rad or m/m
+  kRadianPerNewtonMetre,
+  kMetrePerNewton,
+  kRadianPerKelvin,
+  kMetrePerKelvin,
+};
 
 struct Parameter {
   std::string name;  // "dq3", "da3", "dalpha3", "base.x"
   ParameterGroup group = ParameterGroup::kInternal;
   ParameterRole role = ParameterRole::kAngle;
-  bool is_angle = true;  // rad, else m
+  Unit unit = Unit::kRadian;
+
+  bool is_angle() const { return unit == Unit::kRadian; }
 };
 
 class ParameterSet {

@@ -11,7 +11,7 @@ namespace {
 Eigen::VectorXd DrawErrors(const Model& model, const SimulateOptions& options, Random* random) {
   Eigen::VectorXd lambda(model.parameters.size());
   for (Eigen::Index i = 0; i < lambda.size(); ++i) {
-    const bool angle = model.parameters[static_cast<int>(i)].is_angle;
+    const bool angle = model.parameters[static_cast<int>(i)].is_angle();
     lambda(i) = (angle ? options.angle_error_sd_rad : options.length_error_sd_m) * random->Normal();
   }
   return lambda;
@@ -62,7 +62,7 @@ SimulatedSession Simulate(const Robot& robot, const Model& model, const Pose& X_
   session.X_FT = X_FT;
   for (int i = 0; i < options.poses; ++i) {
     const Eigen::VectorXd q = DrawJoints(robot, options, &random);
-    const Pose X_BF = Forward(model.chain, robot.joint_map().ToChain(q), session.lambda);
+    const Pose X_BF = Forward(model, robot.joint_map().ToChain(q), session.lambda);
     Pose X_MT = session.X_MB * X_BF * session.X_FT;
     X_MT.p += DrawNoise(options.position_noise_sd_m, &random);
     X_MT.R = ExpRotation<double>(DrawNoise(options.rotation_noise_sd_rad, &random)) * X_MT.R;

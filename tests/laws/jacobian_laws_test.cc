@@ -105,7 +105,12 @@ TEST(JacobianLaws, SharedParameterIsSummed) {
 
 struct Point {
   Eigen::VectorXd base, tool, internal;
+  Eigen::VectorXd offset = Eigen::VectorXd::Constant(1, 0.02);
 };
+
+ReadingPoint ParametersAt(const Point& at, const Pose& X_MB, const Pose& X_FT) {
+  return {&X_MB, &X_FT, at.base.data(), at.tool.data(), at.offset(0), at.internal.data()};
+}
 
 // Residual derivatives by central difference of EvaluateReading without Jacobian.
 Eigen::MatrixXd ResidualDifference(const Model& model, const Reading& reading, const Pose& X_MB,
@@ -118,11 +123,9 @@ Eigen::MatrixXd ResidualDifference(const Model& model, const Reading& reading, c
     const double value = v(k);
     Residual plus, minus;
     v(k) = value + h;
-    EvaluateReading(model, reading, X_MB, X_FT, at.base.data(), at.tool.data(), at.internal.data(),
-                    &workspace, &plus, nullptr);
+    EvaluateReading(model, reading, ParametersAt(at, X_MB, X_FT), &workspace, &plus, nullptr);
     v(k) = value - h;
-    EvaluateReading(model, reading, X_MB, X_FT, at.base.data(), at.tool.data(), at.internal.data(),
-                    &workspace, &minus, nullptr);
+    EvaluateReading(model, reading, ParametersAt(at, X_MB, X_FT), &workspace, &minus, nullptr);
     v(k) = value;
     J.col(k) = (plus - minus) / (2 * h);
   }
@@ -134,10 +137,8 @@ void ExpectResidualLaws(const Model& model, const Reading& reading, const Pose& 
   Workspace workspace;
   Residual r, r_alone;
   ReadingJacobian J;
-  EvaluateReading(model, reading, X_MB, X_FT, at.base.data(), at.tool.data(), at.internal.data(),
-                  &workspace, &r, &J);
-  EvaluateReading(model, reading, X_MB, X_FT, at.base.data(), at.tool.data(), at.internal.data(),
-                  &workspace, &r_alone, nullptr);
+  EvaluateReading(model, reading, ParametersAt(at, X_MB, X_FT), &workspace, &r, &J);
+  EvaluateReading(model, reading, ParametersAt(at, X_MB, X_FT), &workspace, &r_alone, nullptr);
   EXPECT_LT((r - r_alone).norm(), 1e-14);
   // Rotation residuals of up to 1 rad magnify rounding a little.
   const double tolerance = 5 * kDifferenceTolerance;
@@ -146,6 +147,10 @@ void ExpectResidualLaws(const Model& model, const Reading& reading, const Pose& 
                 .maxCoeff(),
             tolerance);
   EXPECT_LT((J.tool - ResidualDifference(model, reading, X_MB, X_FT, at, &Point::tool))
+                .cwiseAbs()
+                .maxCoeff(),
+            tolerance);
+  EXPECT_LT((J.offset - ResidualDifference(model, reading, X_MB, X_FT, at, &Point::offset))
                 .cwiseAbs()
                 .maxCoeff(),
             tolerance);
@@ -175,6 +180,10 @@ void CheckResidual(ObservationKind kind, double off, uint64_t seed) {
   reading.X_MT = {ExpRotation<double>(RandomVector(3, off, &random)) * X_MT.R,
                   X_MT.p + RandomVector(3, off, &random)};
   reading.axis_M = reading.X_MT.R.col(2);
+  reading.coordinates = {true, false, true};
+  reading.anchor_M = RandomVector(3, 2, &random);
+  reading.distance_m = (X_MT.p - reading.anchor_M).norm() + off;
+  if (kind == ObservationKind::kDistance) reading.offset = 0;
   ExpectResidualLaws(model, reading, X_MB, X_FT, at);
 }
 
@@ -188,7 +197,9 @@ TEST_P(ResidualLaws, AtLargeResidual) {
 
 INSTANTIATE_TEST_SUITE_P(Kinds, ResidualLaws,
                          ::testing::Values(ObservationKind::kPose, ObservationKind::kPoint,
-                                           ObservationKind::kPointAxis),
+                                           ObservationKind::kPointAxis,
+                                           ObservationKind::kCoordinates,
+                                           ObservationKind::kDistance),
                          [](const auto& info) { return std::string(KindOf(info.param).name); });
 
 }  // namespace

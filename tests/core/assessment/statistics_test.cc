@@ -108,8 +108,8 @@ TEST(Verdict, ImplausibleCorrections) {
   const auto better = Errors({0.5, 0.4, 0.6, 0.5, 0.5, 0.4, 0.6, 0.5, 0.4, 0.6}),
              worse = Errors({1, 1.1, 0.9, 1.2, 1, 1.1, 0.9, 1.2, 1, 1.1});
   ParameterSet parameters;
-  parameters.Add({"dq1", ParameterGroup::kInternal, ParameterRole::kJointOffset, true});
-  parameters.Add({"da1", ParameterGroup::kInternal, ParameterRole::kLength, false});
+  parameters.Add({"dq1", ParameterGroup::kInternal, ParameterRole::kJointOffset, Unit::kRadian});
+  parameters.Add({"da1", ParameterGroup::kInternal, ParameterRole::kLength, Unit::kMetre});
   Identification identification = Converged();
   identification.estimate.lambda = Eigen::Vector2d(-0.17, 0.09);
   EXPECT_EQ(Judge(identification, parameters, worse, better).decision, Decision::kApply);

@@ -14,16 +14,16 @@ ParameterSet Names(const std::vector<Parameter>& parameters) {
 }
 
 Parameter Angle(const std::string& name) {
-  return {name, ParameterGroup::kInternal, ParameterRole::kAngle, true};
+  return {name, ParameterGroup::kInternal, ParameterRole::kAngle, Unit::kRadian};
 }
 Parameter Offset(const std::string& name) {
-  return {name, ParameterGroup::kInternal, ParameterRole::kJointOffset, true};
+  return {name, ParameterGroup::kInternal, ParameterRole::kJointOffset, Unit::kRadian};
 }
 Parameter Length(const std::string& name) {
-  return {name, ParameterGroup::kInternal, ParameterRole::kLength, false};
+  return {name, ParameterGroup::kInternal, ParameterRole::kLength, Unit::kMetre};
 }
 Parameter Base(const std::string& name) {
-  return {name, ParameterGroup::kBase, ParameterRole::kExternal, false};
+  return {name, ParameterGroup::kBase, ParameterRole::kExternal, Unit::kMetre};
 }
 
 Eigen::MatrixXd RandomColumns(int rows, int columns) {

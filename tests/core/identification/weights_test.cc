@@ -77,15 +77,16 @@ TEST(Weights, ExactReadingsGiveTheFloor) {
 }
 
 TEST(Weights, DeviationsAddInSquares) {
-  Reading reading;
-  reading.position_sd_m = {3e-4, 0, 0};
-  const Residual sd = StandardDeviations(reading, {4e-4, 2e-3});
+  const Model model = ModifiedIncremental(testing::Ur10(), ModelExtent::kInternal);
+  Problem problem = NoisyProblem(model, 1, 0, 0, Eigen::Vector3d(3e-4, 0, 0));
+  const Estimate at = NominalEstimate(problem);
+  Residual sd = CovarianceOf(problem, problem.readings[0], at, {4e-4, 2e-3}).diagonal().cwiseSqrt();
   ASSERT_EQ(sd.size(), 6);
   EXPECT_DOUBLE_EQ(sd(0), 5e-4);
   EXPECT_DOUBLE_EQ(sd(1), 4e-4);
   EXPECT_DOUBLE_EQ(sd(5), 2e-3);
-  reading.kind = ObservationKind::kPoint;
-  EXPECT_EQ(StandardDeviations(reading, {}).size(), 3);
+  problem.readings[0].kind = ObservationKind::kPoint;
+  EXPECT_EQ(CovarianceOf(problem, problem.readings[0], at, {}).rows(), 3);
 }
 
 // Rows, deviations and columns of the stacked system belong together: a row's Jacobian is that of
@@ -99,9 +100,9 @@ TEST(Weights, WhitenedSystemStacksReadings) {
   const Estimate at = NominalEstimate(problem);
   const WhitenedSystem system = Whitened(problem, at, {2e-3, 5e-3});
   ASSERT_EQ(system.r.size(), 15);
-  EXPECT_EQ(system.r.segment<3>(6), ResidualAt(problem, problem.readings[1], at));
-  EXPECT_FALSE(system.rotation[8]);
-  EXPECT_TRUE(system.rotation[12]);
+  EXPECT_EQ(system.raw.segment<3>(6), ResidualAt(problem, problem.readings[1], at));
+  EXPECT_EQ(system.kind[8], WhitenedSystem::Row::kPosition);
+  EXPECT_EQ(system.kind[12], WhitenedSystem::Row::kRotation);
   EXPECT_DOUBLE_EQ(system.sd(12), 5e-3);
   EXPECT_NEAR(system.J(0, 0), -1 / 2e-3, 1e-9);
   EXPECT_EQ(system.J(0, 6), 0) << "the first reading does not see the second placement";

@@ -57,7 +57,7 @@ TEST(Simulate, JointsAndErrors) {
   }
   const Model model = ModifiedIncremental(testing::Stanford(), ModelExtent::kInternal);
   for (int i = 0; i < model.parameters.size(); ++i) {
-    if (model.parameters[i].is_angle) {
+    if (model.parameters[i].is_angle()) {
       EXPECT_NE(session.lambda(i), 0);
       EXPECT_LT(std::abs(session.lambda(i)), 5e-3);
     } else if (model.parameters[i].role == ParameterRole::kLength) {
