@@ -35,4 +35,13 @@ Verdict Judge(const Identification& identification, const ParameterSet& paramete
               const std::vector<PoseError>& control_before,
               const std::vector<PoseError>& control_after);
 
+// apply becomes apply_within_volume when the measured poses cover so little that elsewhere within
+// the joint ranges the uncertainty of the parameters alone exceeds what stays unexplained anyway,
+// and twice what it is at the measured poses. All RMS position, m.
+void JudgeVolume(double uncertainty_measured_m, double uncertainty_elsewhere_m,
+                 double unexplained_m, Verdict* verdict);
+
+// do_not_apply when parameters found anew don't differ from the stored ones beyond chance.
+void JudgeChange(double p_value, bool real, Verdict* verdict);
+
 }  // namespace truepose
