@@ -55,13 +55,26 @@ std::vector<double> WeightsOfWhole(const CalibrationProblem& whole,
   return weights;
 }
 
-// Readings anywhere within the joint ranges, with the frames of the part: what extrapolation means.
-Problem Anywhere(const Problem& part, const Robot& robot) {
-  constexpr int kReadings = 200;
+constexpr int kReadingsToLookAt = 200;
+
+// At most so many of the calibration readings, with the first one's frames: where it was measured.
+Problem Measured(const Problem& part) {
   Problem problem = part;
+  problem.readings.clear();
+  const size_t count = std::min<size_t>(part.readings.size(), kReadingsToLookAt);
+  for (size_t i = 0; i < count; ++i) {
+    problem.readings.push_back(part.readings[i * part.readings.size() / count]);
+    problem.readings.back().placement = part.readings[0].placement;
+    problem.readings.back().target = part.readings[0].target;
+    problem.readings.back().offset = -1;
+  }
+  return problem;
+}
+
+// The same many within +-1.5 rad and +-0.3 m of the middle of the joints' limits.
+Problem Elsewhere(const Problem& part, const Robot& robot) {
+  Problem problem = Measured(part);
   Random random(7);
-  for (size_t i = 0; i < problem.readings.size(); ++i) problem.readings[i].weight = 1;
-  problem.readings.resize(std::min<size_t>(problem.readings.size(), kReadings));
   for (Reading& reading : problem.readings) {
     Eigen::VectorXd q = robot.MiddleOfLimits();
     for (int j = 0; j < robot.joint_count(); ++j) {
@@ -79,8 +92,8 @@ Verdict JudgeResult(const CalibrationProblem& problem, const Part& part,
                     const CalibrationResult& result) {
   Verdict verdict = Judge(result.identification, result.model.parameters, result.control.before,
                           result.control.after);
-  JudgeVolume(ParameterUncertainty(part.problem, result.identification),
-              ParameterUncertainty(Anywhere(part.problem, *problem.robot), result.identification),
+  JudgeVolume(ParameterUncertainty(Measured(part.problem), result.identification),
+              ParameterUncertainty(Elsewhere(part.problem, *problem.robot), result.identification),
               result.identification.model_error.position_sd_m * std::sqrt(3.0), &verdict);
   if (result.change) JudgeChange(result.change->p_value, result.change->real, &verdict);
   return verdict;
@@ -110,7 +123,7 @@ absl::Status Assess(const CalibrationProblem& problem, const Part& part, const H
                               WeightsOfWhole(problem, result->identification));
   result->correlations = Correlations(result->identification);
   const Problem control = InFramesOf(part, problem, controls);
-  result->predicted = Predicted(control, result->identification);
+  result->predicted = Predicted(control, part.problem, result->identification);
   result->control_places = PlaceErrorsOf(Chosen(whole, controls), a);
   result->verdict = JudgeResult(problem, part, *result);
   return absl::OkStatus();

@@ -50,6 +50,9 @@ absl::Status Prepare(const Model& model, Run* run) {
       run->part.problem.prior = std::move(prior);
     }
   }
+  if (!run->part.problem.prior && !model.effects.empty() && !HoldsTheRest(options))
+    run->part.problem.prior = NoPrior(model.parameters);
+  if (run->part.problem.prior) AddEffectPrior(model.parameters, &*run->part.problem.prior);
   TRUEPOSE_ASSIGN_OR_RETURN(run->scope, ScopeOf(options.calibrate, run->part.problem));
   run->identify.free = run->scope.free;
   return absl::OkStatus();

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/base/random.h"
+#include "core/identification/prior.h"
 
 namespace truepose {
 namespace {
@@ -87,7 +88,8 @@ class Linearised {
   double FittedRms(const std::vector<int>& columns) const {
     const Eigen::MatrixXd J = Scaled(columns);
     const Eigen::VectorXd left = system_.r - J * J.householderQr().solve(system_.r);
-    return std::sqrt(left.squaredNorm() / static_cast<double>(left.size()));
+    const auto readings = static_cast<Eigen::Index>(unit_.size());  // rows of the prior come last
+    return std::sqrt(left.head(readings).squaredNorm() / static_cast<double>(readings));
   }
 
   double Rms(const std::vector<double>& squares) const {
@@ -204,7 +206,8 @@ EffectChoice ChooseEffects(const Robot& robot, const Problem& problem,
   for (EffectGroup group : AvailableEffects(problem)) AddEffects(robot, group, &wide);
   Problem with_effects = problem;
   with_effects.model = &wide;
-  with_effects.prior.reset();
+  with_effects.prior = NoPrior(wide.parameters);
+  AddEffectPrior(wide.parameters, &*with_effects.prior);
   Estimate estimate = geometric.estimate;
   estimate.lambda.conservativeResizeLike(Eigen::VectorXd::Zero(wide.parameters.size()));
   const Linearised system(with_effects, estimate, geometric.model_error, options);

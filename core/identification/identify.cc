@@ -85,6 +85,17 @@ void Renumber(const std::vector<int>& candidates, IdentifiableSet* set) {
   }
 }
 
+// Whether a prior holds geometric parameters, which then can't be too weak.
+bool HoldsGeometry(const Problem& problem) {
+  if (!problem.prior) return false;
+  const ParameterSet& parameters = problem.model->parameters;
+  for (int i = 0; i < parameters.size(); ++i) {
+    if (parameters[i].role != ParameterRole::kEffect && !problem.prior->root.col(i).isZero(0))
+      return true;
+  }
+  return false;
+}
+
 // Always at nominal lambda, and by the readings alone: there the model's own redundancies are
 // exact. At identified parameters two nominally parallel axes are a milliradian apart, a redundant
 // parameter looks independent, and the basis that keeps it in place of a strong one is worse
@@ -97,7 +108,7 @@ IdentifiableSet SetAtNominal(const Problem& problem, const Identification& befor
   nominal.lambda.setZero();
   IdentifiabilityOptions identifiability = options.identifiability;
   identifiability.use_sd_bounds =
-      identifiability.use_sd_bounds && use_sd_bounds && !problem.prior.has_value();
+      identifiability.use_sd_bounds && use_sd_bounds && !HoldsGeometry(problem);
   const FreeColumns columns = FreeOf(problem, options.free);
   Eigen::MatrixXd J = Whitened(problem, nominal, model_error).J;
   if (problem.prior) J.bottomRows(problem.prior->root.rows()).setZero();

@@ -9,6 +9,9 @@
 namespace truepose {
 namespace {
 
+constexpr double kHarmonicSd_rad = 5.2359877559829887e-4;  // 0.03 deg
+constexpr double kGainSd = 5e-4;
+
 // Places in `identified` of the stored internal parameters that the model has.
 std::vector<std::pair<int, int>> Places(const StoredCalibration& stored,
                                         const ParameterSet& parameters) {
@@ -49,6 +52,21 @@ Prior PriorOf(const TolerancePrior& tolerance, const ParameterSet& parameters) {
   for (size_t row = 0; row < rows.size(); ++row)
     prior.root(static_cast<Eigen::Index>(row), rows[row].first) = rows[row].second;
   return prior;
+}
+
+Prior NoPrior(const ParameterSet& parameters) {
+  return {Eigen::VectorXd::Zero(parameters.size()), Eigen::MatrixXd::Zero(0, parameters.size())};
+}
+
+void AddEffectPrior(const ParameterSet& parameters, Prior* prior) {
+  for (int i = 0; i < parameters.size(); ++i) {
+    const Parameter& parameter = parameters[i];
+    const bool bounded = parameter.unit == Unit::kRadian || parameter.unit == Unit::kRatio;
+    if (parameter.role != ParameterRole::kEffect || !bounded) continue;
+    const Eigen::Index row = prior->root.rows();
+    prior->root.conservativeResizeLike(Eigen::MatrixXd::Zero(row + 1, parameters.size()));
+    prior->root(row, i) = 1 / (parameter.is_angle() ? kHarmonicSd_rad : kGainSd);
+  }
 }
 
 absl::StatusOr<Eigen::VectorXd> LambdaOf(const StoredCalibration& stored,

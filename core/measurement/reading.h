@@ -55,8 +55,8 @@ struct Reading {
                                                           // added to the two above
   bool contact = false;  // the place is that of a fixture and not of an instrument: frames of M
                          // that its places leave free (a turn about a line of sockets) are no fault
-  double weight = 1;  // of a robust loss: the whole covariance is divided by it
-  int id = 0;         // the caller's name for it
+  double weight = 1;     // of a robust loss: the whole covariance is divided by it
+  int id = 0;            // the caller's name for it
 };
 
 // Residual rows: position rows, then rotation rows. At most 6.
