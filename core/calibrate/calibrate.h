@@ -22,6 +22,7 @@ struct CalibrationProblem {
   std::vector<Reading> readings;  // all usable rows
   std::vector<bool> calibrates;   // a role for each reading; the others control
   std::vector<std::string> placements, targets;
+  std::vector<std::string> offsets;  // unknown constants of distances
   std::optional<Pose> X_FT_nominal;  // of the target, tried first as start value
 };
 
