@@ -82,6 +82,73 @@ void AddNumbers(const std::string& field, const google::protobuf::RepeatedField<
   for (int i = 0; i < values.size(); ++i) lines->Add(absl::StrCat(field, "[", i, "]"), values[i]);
 }
 
+void AddMass(const std::string& field, const v1::LinkMass& mass, Lines* lines) {
+  lines->Add(field + ".joint", absl::StrCat(mass.joint()));
+  lines->Add(field + ".mass_kg", mass.mass_kg());
+  lines->Add(field + ".x_m", mass.x_m());
+  lines->Add(field + ".y_m", mass.y_m());
+  lines->Add(field + ".z_m", mass.z_m());
+}
+
+// A text that is not there has no line: what is new must not change the digests of what is old.
+void AddText(const std::string& name, const std::string& value, Lines* lines) {
+  if (!value.empty()) lines->Add(name, value);
+}
+
+// What a reading may have beside a pose, and most do not.
+void AddFurther(const std::string& row, const v1::Reading& reading, Lines* lines) {
+  for (int i = 0; i < reading.points_size(); ++i) {
+    const v1::MeasuredPoint& point = reading.points(i);
+    const std::string field = absl::StrCat(row, ".points[", i, "]");
+    lines->Add(field + ".target", point.target());
+    lines->Add(field + ".position_m", point.position_m());
+    if (point.has_position_sd_m()) lines->Add(field + ".position_sd_m", point.position_sd_m());
+  }
+  AddText(row + ".coordinates", reading.coordinates(), lines);
+  if (reading.has_distance_m()) lines->Add(row + ".distance_m", reading.distance_m());
+  if (reading.has_distance_sd_m()) lines->Add(row + ".distance_sd_m", reading.distance_sd_m());
+  AddText(row + ".anchor", reading.anchor(), lines);
+  AddText(row + ".beam", reading.beam(), lines);
+  AddText(row + ".feature", reading.feature(), lines);
+}
+
+void AddFixture(const v1::Fixture& fixture, Lines* lines) {
+  lines->Add("fixture", fixture.name());
+  for (const v1::Feature& feature : fixture.features()) {
+    lines->Add("feature", feature.name());
+    lines->Add("feature.kind", v1::FeatureKind_Name(feature.kind()));
+    AddPose("feature.pose", feature.pose(), lines);
+    AddNumbers("feature.covariance", feature.covariance(), lines);
+  }
+}
+
+void AddPrior(const v1::PriorCalibration& prior, Lines* lines) {
+  lines->Add("prior_calibration", prior.name());
+  lines->Add("prior_calibration.convention", prior.convention());
+  for (const v1::InternalParameter& parameter : prior.internal_parameters())
+    lines->Add("prior_calibration.value " + absl::CEscape(parameter.name()), parameter.value());
+  for (const std::string& name : prior.identified())
+    lines->Add("prior_calibration.identified", name);
+  AddNumbers("prior_calibration.covariance", prior.covariance(), lines);
+  lines->Add("prior_calibration.model_sd_position_mm", prior.model_sd_position_mm());
+  lines->Add("prior_calibration.model_sd_rotation_deg", prior.model_sd_rotation_deg());
+}
+
+// Options that most jobs leave empty.
+void AddFurtherOptions(const v1::CalibrationOptions& options, Lines* lines) {
+  AddText("select", options.select(), lines);
+  AddText("effects", options.effects(), lines);
+  AddText("loss", options.loss(), lines);
+  AddText("calibrate", options.calibrate(), lines);
+  AddText("prior", options.prior(), lines);
+  if (options.has_prior_calibration()) AddPrior(options.prior_calibration(), lines);
+  if (options.has_fixture()) AddFixture(options.fixture(), lines);
+  AddText("feature_column", options.feature_column(), lines);
+  AddNumbers("joint_sd", options.joint_sd(), lines);
+  AddText("pose_matching", options.pose_matching(), lines);
+  AddText("joints", options.joints(), lines);
+}
+
 void AddReading(const v1::Reading& reading, Lines* lines) {
   const std::string row = absl::StrCat("row[", reading.row(), "]");
   AddNumbers(row + ".joints_measured", reading.joints_measured(), lines);
@@ -100,6 +167,7 @@ void AddReading(const v1::Reading& reading, Lines* lines) {
   if (reading.has_temperature_c()) lines->Add(row + ".temperature_c", reading.temperature_c());
   AddNumbers(row + ".joint_torques_nm", reading.joint_torques_nm(), lines);
   for (const std::string& value : reading.extra_values()) lines->Add(row + ".extra", value);
+  AddFurther(row, reading, lines);
 }
 
 }  // namespace
@@ -145,6 +213,8 @@ std::string NominalDigest(const v1::Nominal& nominal) {
     lines.Add("tool", tool.name());
     AddPose("tool.pose", tool.pose(), &lines);
   }
+  for (int i = 0; i < nominal.masses_size(); ++i)
+    AddMass(absl::StrCat("mass[", i, "]"), nominal.masses(i), &lines);
   return lines.Digest();
 }
 
@@ -168,6 +238,7 @@ std::string JobInputDigest(const std::string& nominal_digest,
   lines.Add("model", options.model());
   lines.Add("estimator", options.estimator());
   lines.Add("nominal_tool", options.nominal_tool());
+  AddFurtherOptions(options, &lines);
   return lines.Digest();
 }
 

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
 #include <set>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
-#include "convert/frames.h"
+#include "convert/observations.h"
+#include "convert/reading_settings.h"
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
 
@@ -39,95 +39,128 @@ class Labels {
   std::vector<std::string> labels_;
 };
 
-std::optional<ObservationKind> KindFor(const v1::Reading& reading, v1::Observe observe) {
-  if (!reading.has_position_m()) return std::nullopt;
-  const bool axis = reading.has_axis() || reading.has_orientation();
-  switch (observe) {
-    case v1::POSE:
-      return reading.has_orientation() ? std::optional(ObservationKind::kPose) : std::nullopt;
-    case v1::POINT_AXIS:
-      return axis ? std::optional(ObservationKind::kPointAxis) : std::nullopt;
-    case v1::POINT:
-      return ObservationKind::kPoint;
-    default:
-      break;
-  }
-  if (reading.has_orientation()) return ObservationKind::kPose;
-  return reading.has_axis() ? ObservationKind::kPointAxis : ObservationKind::kPoint;
+// Rows named in a warning: enough to find them, not so many that they hide the rest.
+std::string RowsText(const std::vector<int>& rows) {
+  const size_t shown = std::min<size_t>(rows.size(), 20);
+  return absl::StrCat("(rows ",
+                      absl::StrJoin(rows.begin(), rows.begin() + static_cast<long>(shown), ", "),
+                      rows.size() > shown ? ", ..." : "", ")");
 }
 
-Reading ReadingFrom(const v1::Reading& message, const Robot& robot, ObservationKind kind) {
-  const auto& joints =
-      message.joints_measured_size() > 0 ? message.joints_measured() : message.joints_commanded();
-  Reading reading;
-  reading.q =
-      robot.joint_map().ToChain(Eigen::Map<const Eigen::VectorXd>(joints.data(), joints.size()));
-  reading.kind = kind;
-  reading.X_MT.p = VectorFrom(message.position_m());
-  if (message.has_orientation()) {
-    reading.X_MT.R = RotationFrom(message.orientation());
-    reading.axis_M = reading.X_MT.R.col(2);
+// Of the rows that have one; 0 when none has.
+double MeanTemperature(const v1::SessionInput& session) {
+  double sum = 0;
+  int rows = 0;
+  for (const v1::Reading& reading : session.readings()) {
+    if (!reading.has_temperature_c()) continue;
+    sum += reading.temperature_c();
+    ++rows;
   }
-  if (message.has_axis()) reading.axis_M = VectorFrom(message.axis()).normalized();
-  if (message.has_position_sd_m()) reading.position_sd_m = VectorFrom(message.position_sd_m());
-  return reading;
+  return rows > 0 ? sum / rows : 0;
 }
 
 class Collector {
  public:
-  Collector(const Robot& robot, const Sessions& sessions, v1::Observe observe)
-      : robot_(robot), sessions_(sessions), observe_(observe) {}
+  Collector(const Robot& robot, const Sessions& sessions, const ReadingSettings& settings)
+      : robot_(robot), sessions_(sessions), settings_(settings) {}
 
   ReadingsProblem Run() {
     for (size_t s = 0; s < sessions_.size(); ++s) {
+      mean_temperature_ = MeanTemperature(*sessions_[s]);
       for (const v1::Reading& reading : sessions_[s]->readings())
         Take(static_cast<int>(s), reading);
-      WarnOfUnused(static_cast<int>(s));
+      WarnOf(static_cast<int>(s));
     }
     result_.problem.placements = placements_.labels();
     result_.problem.targets = targets_.labels();
+    result_.problem.offsets = beams_.labels();
     result_.joints_used = JointsUsed();
     return std::move(result_);
   }
 
  private:
-  void Take(int s, const v1::Reading& message) {
+  using Numbers = google::protobuf::RepeatedField<double>;
+
+  const Numbers& JointsOf(const v1::Reading& row) const {
+    const JointSource source = settings_.joints;
+    const bool commanded = source == JointSource::kCommanded ||
+                           (source == JointSource::kAny && row.joints_measured().empty());
+    return commanded ? row.joints_commanded() : row.joints_measured();
+  }
+
+  void Take(int s, const v1::Reading& row) {
     const int position = all_rows_++;
-    const bool has_joints = message.joints_measured_size() + message.joints_commanded_size() > 0;
-    const auto kind = KindFor(message, observe_);
-    if (!has_joints || !kind.has_value()) {
-      unused_.push_back(message.row());
+    const FeaturePlace* feature = settings_.FeatureOf(position);
+    const Numbers& joints = JointsOf(row);
+    std::vector<Observation> observations =
+        ObservationsOf(row, feature, settings_.places, settings_.observe);
+    if (joints.empty() || observations.empty()) {
+      unused_.push_back(row.row());
       return;
     }
-    Reading reading = ReadingFrom(message, robot_, *kind);
+    if (feature != nullptr && row.has_position_m()) not_taken_.push_back(row.row());
+    (&joints == &row.joints_measured() ? measured_ : commanded_) += 1;
+    for (Observation& observation : observations) {
+      SetJoints(row, joints, &observation.reading);
+      Place(s, row, observation, &observation.reading);
+      Append(s, row.row(), position, std::move(observation.reading));
+    }
+  }
+
+  void SetJoints(const v1::Reading& row, const Numbers& joints, Reading* reading) const {
+    const auto vector = [](const Numbers& numbers) {
+      return Eigen::Map<const Eigen::VectorXd>(numbers.data(), numbers.size());
+    };
+    reading->q = robot_.joint_map().ToChain(vector(joints));
+    reading->joint_sd = settings_.joint_sd;
+    reading->conditions.joint_torque = vector(row.joint_torques_nm());
+    if (row.has_temperature_c())
+      reading->conditions.temperature_K = row.temperature_c() - mean_temperature_;
+  }
+
+  // Placements, unknown anchors, beams and targets without a name belong to their session.
+  void Place(int s, const v1::Reading& row, const Observation& observation, Reading* reading) {
+    const std::string session = absl::StrCat(s, "\n");
+    std::string key = absl::StrCat(session, row.placement()), label = row.placement();
+    if (!observation.anchor.empty()) {
+      absl::StrAppend(&key, "\n", observation.anchor);
+      label = Joined(label, observation.anchor);
+    }
+    reading->placement = placements_.IndexOf(key, Label(s, label));
+    const std::string target = Joined(row.target(), observation.point);
+    const bool named = !row.target().empty();
+    reading->target = targets_.IndexOf(named ? target : absl::StrCat(session, target),
+                                       named ? target : Label(s, target));
+    if (!observation.beam.empty())
+      reading->offset = beams_.IndexOf(session + observation.beam, Label(s, observation.beam));
+  }
+
+  void Append(int s, int row, int position, Reading reading) {
     reading.id = static_cast<int>(result_.rows.size());
-    reading.placement = placements_.IndexOf(absl::StrCat(s, "\n", message.placement()),
-                                            Label(s, message.placement()));
-    const std::string& target = message.target();
-    reading.target = targets_.IndexOf(target.empty() ? absl::StrCat(s, "\n") : target,
-                                      target.empty() ? Label(s, "") : target);
-    (message.joints_measured_size() > 0 ? measured_ : commanded_) += 1;
     result_.problem.readings.push_back(std::move(reading));
-    result_.rows.push_back({s, message.row()});
+    result_.rows.push_back({s, row});
     result_.position.push_back(position);
+  }
+
+  static std::string Joined(const std::string& a, const std::string& b) {
+    return a.empty() || b.empty() ? a + b : absl::StrCat(a, "/", b);
   }
 
   std::string Label(int s, const std::string& label) const {
     if (sessions_.size() == 1) return label;
-    const std::string session = absl::StrCat("session ", s + 1);
-    return label.empty() ? session : absl::StrCat(session, "/", label);
+    return Joined(absl::StrCat("session ", s + 1), label);
   }
 
-  void WarnOfUnused(int s) {
-    if (unused_.empty()) return;
-    const size_t shown = std::min<size_t>(unused_.size(), 20);
-    const std::string rows =
-        absl::StrJoin(unused_.begin(), unused_.begin() + static_cast<long>(shown), ", ");
-    result_.warnings.push_back(
-        absl::StrCat(Label(s, ""), sessions_.size() > 1 ? ": " : "", unused_.size(),
-                     " rows are not used: joints or the observed quantity are missing (rows ", rows,
-                     unused_.size() > shown ? ", ..." : "", ")"));
-    unused_.clear();
+  void WarnOf(int s) {
+    Warn(s, " rows are not used: joints or the observed quantity are missing ", &unused_);
+    Warn(s, " rows stand in a feature: their measured positions are not used ", &not_taken_);
+  }
+
+  void Warn(int s, const std::string& what, std::vector<int>* rows) {
+    if (rows->empty()) return;
+    result_.warnings.push_back(absl::StrCat(Label(s, ""), sessions_.size() > 1 ? ": " : "",
+                                            rows->size(), what, RowsText(*rows)));
+    rows->clear();
   }
 
   std::string JointsUsed() const {
@@ -138,10 +171,11 @@ class Collector {
 
   const Robot& robot_;
   const Sessions& sessions_;
-  const v1::Observe observe_;
+  const ReadingSettings& settings_;
   ReadingsProblem result_;
-  Labels placements_, targets_;
-  std::vector<int> unused_;
+  Labels placements_, targets_, beams_;
+  std::vector<int> unused_, not_taken_;
+  double mean_temperature_ = 0;
   int all_rows_ = 0, measured_ = 0, commanded_ = 0;
 };
 
@@ -172,49 +206,22 @@ absl::Status CheckSessions(const v1::Nominal& nominal, const Sessions& sessions)
   return faults.ToStatus();
 }
 
-const std::string* BuiltInColumn(const v1::Reading& reading, const std::string& column) {
-  if (column == "placement") return &reading.placement();
-  if (column == "target") return &reading.target();
-  if (column == "group") return &reading.group();
-  if (column == "time") return &reading.time();
-  return nullptr;
-}
-
-absl::Status UnknownColumn(const v1::Session& session, const std::string& column,
-                           const std::string& field) {
-  std::vector<std::string> names = {"placement", "target", "group", "time"};
-  names.insert(names.end(), session.extra_columns().begin(), session.extra_columns().end());
-  return FaultStatus(field, absl::StrCat("column '", column, "'"),
-                     absl::StrCat("one of ", absl::StrJoin(names, ", ")));
-}
-
 }  // namespace
 
 absl::StatusOr<ReadingsProblem> ReadingsFrom(const v1::Nominal& nominal, const Robot& robot,
-                                             const Sessions& sessions, v1::Observe observe) {
+                                             const Sessions& sessions,
+                                             const v1::CalibrationOptions& options) {
   TRUEPOSE_RETURN_IF_ERROR(CheckSessions(nominal, sessions));
-  return Collector(robot, sessions, observe).Run();
+  TRUEPOSE_ASSIGN_OR_RETURN(const ReadingSettings settings,
+                            ReadingSettingsFrom(robot, sessions, options));
+  return Collector(robot, sessions, settings).Run();
 }
 
-absl::StatusOr<std::vector<std::string>> ColumnValues(const Sessions& sessions,
-                                                      const std::string& column,
-                                                      const std::string& field) {
-  std::vector<std::string> values;
-  for (const v1::SessionInput* session : sessions) {
-    const auto& extra = session->session().extra_columns();
-    const auto it = std::find(extra.begin(), extra.end(), column);
-    const int index = static_cast<int>(it - extra.begin());
-    for (const v1::Reading& reading : session->readings()) {
-      if (const std::string* value = BuiltInColumn(reading, column)) {
-        values.push_back(*value);
-      } else if (it != extra.end() && index < reading.extra_values_size()) {
-        values.push_back(reading.extra_values(index));
-      } else {
-        return UnknownColumn(session->session(), column, field);
-      }
-    }
-  }
-  return values;
+absl::StatusOr<ReadingsProblem> ReadingsFrom(const v1::Nominal& nominal, const Robot& robot,
+                                             const Sessions& sessions, v1::Observe observe) {
+  v1::CalibrationOptions options;
+  options.set_observe(observe);
+  return ReadingsFrom(nominal, robot, sessions, options);
 }
 
 }  // namespace truepose::convert

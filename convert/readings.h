@@ -10,7 +10,8 @@
 
 namespace truepose::convert {
 
-// Which reading of which session a core reading is; Reading::id indexes the list.
+// Which row of which session a core reading is of; Reading::id indexes the list. Several readings
+// may be of one row.
 struct RowOf {
   int session;
   int row;
@@ -18,23 +19,31 @@ struct RowOf {
 
 struct ReadingsProblem {
   CalibrationProblem problem;  // robot not set; calibrates is empty
-  std::vector<RowOf> rows;     // of the usable readings
-  std::vector<int> position;   // usable reading -> its place among all rows of all sessions
+  std::vector<RowOf> rows;     // of the readings
+  std::vector<int> position;   // reading -> the place of its row among all rows of all sessions
   std::vector<std::string> warnings;
   std::string joints_used;  // "measured", "commanded" or both with counts
 };
 
-// Usable are rows with joints (measured, else commanded) and with what `observe` asks for: pose
-// needs position and orientation, point a position, point_axis a position and an orientation or
-// axis; unspecified takes the most of each row. Placements belong to their session; a target with a
-// name is one for all sessions, one without belongs to its session.
-// @returns kInvalidArgument with faults `sessions[i].readings[k]...`.
+// Usable are rows with joints (options.joints: measured, commanded, or measured and else commanded)
+// in which options.observe finds something (observations.h); a row becomes one reading or several.
+// Placements belong to their session, and so does a distance's unknown anchor, which is a placement
+// of its own. A target with a name is one for all sessions, one without belongs to its session; a
+// point p1 of target T is the target T/p1. options.fixture and options.feature_column say where the
+// tool stood; the fixture's frame is the M of each placement. options.joint_sd goes to every
+// reading. Temperatures are above the mean of their session.
+// @returns kInvalidArgument with faults `sessions[i].readings[k]...` and `options...`.
+absl::StatusOr<ReadingsProblem> ReadingsFrom(const v1::Nominal& nominal, const Robot& robot,
+                                             const std::vector<const v1::SessionInput*>& sessions,
+                                             const v1::CalibrationOptions& options);
+// With `observe` alone.
 absl::StatusOr<ReadingsProblem> ReadingsFrom(const v1::Nominal& nominal, const Robot& robot,
                                              const std::vector<const v1::SessionInput*>& sessions,
                                              v1::Observe observe);
 
-// The value of a column in each row of all sessions: placement, target, group, time, or an extra
-// column. kInvalidArgument with a fault of `field` that lists the columns there are.
+// The value of a column in each row of all sessions: placement, target, group, time, feature,
+// anchor, beam, or an extra column. kInvalidArgument with a fault of `field` that lists the columns
+// there are.
 absl::StatusOr<std::vector<std::string>> ColumnValues(
     const std::vector<const v1::SessionInput*>& sessions, const std::string& column,
     const std::string& field);

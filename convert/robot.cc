@@ -17,6 +17,7 @@ namespace truepose::convert {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kLargestMass_kg = 1e6;  // far above any arm: a slip of units
 
 std::vector<Joint> JointsFrom(const v1::Nominal& nominal, FaultList* faults) {
   std::vector<Joint> joints;
@@ -138,6 +139,24 @@ void CheckTools(const v1::Nominal& nominal, FaultList* faults) {
   }
 }
 
+void CheckMasses(const v1::Nominal& nominal, FaultList* faults) {
+  for (int i = 0; i < nominal.masses_size(); ++i) {
+    const v1::LinkMass& mass = nominal.masses(i);
+    const std::string field = absl::StrCat("masses[", i, "]");
+    if (mass.joint() < 0 || mass.joint() >= nominal.joints_size()) {
+      faults->Add(field + ".joint", absl::StrCat(mass.joint()),
+                  absl::StrCat("a joint from 0 to ", nominal.joints_size() - 1));
+    }
+    if (!(mass.mass_kg() >= 0 && mass.mass_kg() <= kLargestMass_kg)) {
+      faults->Add(field + ".mass_kg", absl::StrCat(mass.mass_kg()),
+                  absl::StrCat("0 to ", kLargestMass_kg));
+    }
+    CheckSize(mass.x_m(), kLargestLength_m, field + ".x_m", faults);
+    CheckSize(mass.y_m(), kLargestLength_m, field + ".y_m", faults);
+    CheckSize(mass.z_m(), kLargestLength_m, field + ".z_m", faults);
+  }
+}
+
 }  // namespace
 
 absl::StatusOr<Robot> RobotFrom(const v1::Nominal& nominal) {
@@ -147,6 +166,7 @@ absl::StatusOr<Robot> RobotFrom(const v1::Nominal& nominal) {
   AppendFlange(nominal.geometry(), &chain, &faults);
   JointMap map = MapFrom(nominal, &faults);
   CheckTools(nominal, &faults);
+  CheckMasses(nominal, &faults);
   if (!faults.empty()) return faults.ToStatus();
   return Robot::Create(std::move(joints), std::move(chain), std::move(map));
 }

@@ -1,58 +1,13 @@
-// What can be wrong with readings and options, and which joints exceed their limits.
-#include <cmath>
-
+// What can be wrong with options, and which joints exceed their limits.
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
-#include "convert/frames.h"
 #include "convert/run.h"
 #include "core/assessment/split.h"
 #include "core/base/fault.h"
 
 namespace truepose::convert {
 namespace {
-
-void CheckJoints(const google::protobuf::RepeatedField<double>& values, int joints,
-                 const std::string& field, FaultList* faults) {
-  if (values.size() != 0 && values.size() != joints) {
-    faults->Add(field, absl::StrCat(values.size(), " values"),
-                absl::StrCat(joints, ", one for each joint"));
-  }
-  for (int i = 0; i < values.size(); ++i)
-    CheckSize(values[i], kLargestJoint, absl::StrCat(field, "[", i, "]"), faults);
-}
-
-void CheckAxis(const v1::Vector3& axis, const std::string& field, FaultList* faults) {
-  CheckVector(axis, field, faults);
-  const double length = VectorFrom(axis).norm();
-  if (std::isfinite(length) && std::abs(length - 1) > kUnitTolerance) {
-    faults->Add(field, absl::StrCat("a vector of length ", length), "a unit vector");
-  }
-}
-
-void CheckDeviations(const v1::Vector3& sd, const std::string& field, FaultList* faults) {
-  CheckVector(sd, field, faults);
-  if (VectorFrom(sd).minCoeff() < 0)
-    faults->Add(field, "a negative standard deviation", "0 or more");
-}
-
-void CheckReading(const v1::Reading& reading, int joints, int row, const std::string& field,
-                  FaultList* faults) {
-  if (reading.row() != row)
-    faults->Add(field + ".row", absl::StrCat(reading.row()),
-                absl::StrCat(row, ", rows without gaps"));
-  CheckJoints(reading.joints_measured(), joints, field + ".joints_measured", faults);
-  CheckJoints(reading.joints_commanded(), joints, field + ".joints_commanded", faults);
-  CheckJoints(reading.joint_torques_nm(), joints, field + ".joint_torques_nm", faults);
-  if (reading.has_position_m()) CheckVector(reading.position_m(), field + ".position_m", faults);
-  if (reading.has_orientation())
-    CheckQuaternion(reading.orientation(), field + ".orientation", faults);
-  if (reading.has_axis()) CheckAxis(reading.axis(), field + ".axis", faults);
-  if (reading.has_position_sd_m())
-    CheckDeviations(reading.position_sd_m(), field + ".position_sd_m", faults);
-  if (reading.has_temperature_c())
-    CheckFinite(reading.temperature_c(), field + ".temperature_c", faults);
-}
 
 // Rows in a warning: enough to find them, not so many that they hide the rest.
 constexpr size_t kRowsShown = 20;
@@ -89,16 +44,6 @@ void CheckName(const std::string& value, const std::string& only, const std::str
 }
 
 }  // namespace
-
-absl::Status ValidateReadings(const v1::Nominal& nominal, const std::vector<v1::Reading>& readings,
-                              int first_row) {
-  FaultList faults;
-  for (size_t i = 0; i < readings.size(); ++i) {
-    CheckReading(readings[i], nominal.joints_size(), first_row + static_cast<int>(i),
-                 absl::StrCat("readings[", i, "]"), &faults);
-  }
-  return faults.ToStatus();
-}
 
 std::vector<std::string> LimitWarnings(const v1::Nominal& nominal,
                                        const std::vector<v1::Reading>& readings) {

@@ -73,11 +73,22 @@ bool Columns::HasFault(const std::vector<KnownColumn>& known_columns, std::strin
     if (!IsThere(place)) place = {std::string(name), cell, nullptr, false};
     return true;
   }
-  if (!LooksLikeJoint(name)) return false;
-  const size_t joints = groups_[static_cast<size_t>(Quantity::kMeasuredJoint)].columns.size();
-  AddFault(name, StrCat("the header ", Quoted(name)),
-           StrCat("a joint from 1 to ", joints, ", as many as the robot has"));
-  return true;
+  return HasNumberBeyond(name);
+}
+
+bool Columns::HasNumberBeyond(std::string_view name) {
+  const auto columns_of = [&](Quantity quantity) {
+    return groups_[static_cast<size_t>(quantity)].columns.size();
+  };
+  std::string expected;
+  if (LooksLikeJoint(name)) {
+    const size_t joints = columns_of(Quantity::kMeasuredJoint);
+    expected = StrCat("a joint from 1 to ", joints, ", as many as the robot has");
+  } else if (LooksLikePoint(name) && columns_of(Quantity::kPoint1) > 0) {
+    expected = StrCat("a point from 1 to ", kMostPoints);
+  }
+  if (!expected.empty()) AddFault(name, StrCat("the header ", Quoted(name)), expected);
+  return !expected.empty();
 }
 
 void Columns::CheckComplete(const std::vector<KnownColumn>& known_columns) {
@@ -87,10 +98,20 @@ void Columns::CheckComplete(const std::vector<KnownColumn>& known_columns) {
     const auto beside = std::find_if(group.columns.begin(), group.columns.end(), IsThere);
     const Column& column = group.columns[known.index];
     if ((IsThere(column) && column.readable) || beside == group.columns.end()) continue;
+    if (!IsThere(column) && MayBeMissing(known)) continue;
     group.complete = false;
     if (IsThere(column)) continue;
     AddFault(NameBeside(known, *beside), "no such column", StrCat("one beside ", beside->name));
   }
+}
+
+bool Columns::MayBeMissing(const KnownColumn& known) const {
+  if (!known.alone) return false;
+  if (known.quantity == Quantity::kPosition) {
+    return !Find(Quantity::kQuaternion) && !Find(Quantity::kEuler) && !Find(Quantity::kAxis);
+  }
+  const ColumnGroup* position = Find(Quantity::kPosition);
+  return position != nullptr && !IsThere(position->columns[known.index]);
 }
 
 ColumnGroup& Columns::GroupOf(const KnownColumn& known) {

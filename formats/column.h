@@ -1,7 +1,9 @@
 // What the header of a table says: which cell of a row holds which quantity, in which unit.
 //
 // A known quantity without its unit, with another unit or in other letters is a fault, and so is a
-// group of which only some columns are there. Every other name is an extra column.
+// group of which only some columns are there, but for single coordinates: these have a deviation
+// where the group of deviations is there, and no orientation beside them. Every other name is an
+// extra column.
 #pragma once
 
 #include <string>
@@ -44,6 +46,8 @@ class Columns {
   void Bind(const std::vector<KnownColumn>& known, std::string_view name, int cell);
   void Place(const KnownColumn& known, Column column);
   bool HasFault(const std::vector<KnownColumn>& known, std::string_view name, int cell);
+  bool HasNumberBeyond(std::string_view name);
+  bool MayBeMissing(const KnownColumn& known) const;
   void CheckComplete(const std::vector<KnownColumn>& known);
   ColumnGroup& GroupOf(const KnownColumn& known);
   void AddFault(std::string_view column, std::string found, std::string expected);

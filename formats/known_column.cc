@@ -26,7 +26,23 @@ void AddJoint(std::vector<KnownColumn>& known, const v1::Joint& joint, int index
 
 bool IsText(Quantity quantity) {
   return quantity == Quantity::kTime || quantity == Quantity::kPlacement ||
-         quantity == Quantity::kTarget || quantity == Quantity::kGroup;
+         quantity == Quantity::kTarget || quantity == Quantity::kGroup ||
+         quantity == Quantity::kAnchor || quantity == Quantity::kBeam ||
+         quantity == Quantity::kFeature;
+}
+
+Quantity Later(Quantity first, int count) {
+  return static_cast<Quantity>(static_cast<int>(first) + count);
+}
+
+void AddPoint(std::vector<KnownColumn>& known, int point) {
+  const auto stems = [&](std::string_view infix) {
+    std::vector<std::string> names;
+    for (const char* axis : {"x", "y", "z"}) names.push_back(StrCat("p", point, infix, axis));
+    return names;
+  };
+  AddGroup(known, PositionOfPoint(point), Dimension::kLength, stems("_"));
+  AddGroup(known, DeviationOfPoint(point), Dimension::kLength, stems("_s"));
 }
 
 bool IsOneWord(std::string_view text) {
@@ -50,6 +66,26 @@ std::vector<KnownColumn> KnownColumns(const v1::Nominal& nominal, bool with_eule
   AddGroup(known, Quantity::kGroup, Dimension::kNone, {"group"});
   return known;
 }
+
+std::vector<KnownColumn> SessionColumns(const v1::Nominal& nominal, bool with_euler) {
+  std::vector<KnownColumn> known = KnownColumns(nominal, with_euler);
+  for (KnownColumn& column : known) {
+    column.alone =
+        column.quantity == Quantity::kPosition || column.quantity == Quantity::kPositionSd;
+  }
+  // Before the distance, else its name without a unit would be a wrong unit of that.
+  AddGroup(known, Quantity::kDistanceSd, Dimension::kLength, {"distance_sd"});
+  AddGroup(known, Quantity::kDistance, Dimension::kLength, {"distance"});
+  AddGroup(known, Quantity::kAnchor, Dimension::kNone, {"anchor"});
+  AddGroup(known, Quantity::kBeam, Dimension::kNone, {"beam"});
+  AddGroup(known, Quantity::kFeature, Dimension::kNone, {"feature"});
+  for (int point = 1; point <= kMostPoints; ++point) AddPoint(known, point);
+  return known;
+}
+
+Quantity PositionOfPoint(int point) { return Later(Quantity::kPoint1, point - 1); }
+
+Quantity DeviationOfPoint(int point) { return Later(Quantity::kPoint1Sd, point - 1); }
 
 bool IsNameOf(const KnownColumn& column, std::string_view name, const Unit** unit) {
   *unit = nullptr;
@@ -76,6 +112,19 @@ bool LooksLikeJoint(std::string_view name) {
   rest.remove_prefix(digits);
   ConsumePrefix(&rest, "_cmd");
   return digits > 0 && (rest.empty() || (ConsumePrefix(&rest, "_") && IsOneWord(rest)));
+}
+
+bool LooksLikePoint(std::string_view name) {
+  const std::string lower = AsciiToLower(name);
+  std::string_view rest = lower;
+  if (!ConsumePrefix(&rest, "p")) return false;
+  const size_t digits = std::min(rest.find_first_not_of("0123456789"), rest.size());
+  rest.remove_prefix(digits);
+  if (digits == 0 || !ConsumePrefix(&rest, "_")) return false;
+  ConsumePrefix(&rest, "s");
+  if (rest.empty() || rest[0] < 'x' || rest[0] > 'z') return false;
+  rest.remove_prefix(1);
+  return rest.empty() || (ConsumePrefix(&rest, "_") && IsOneWord(rest));
 }
 
 }  // namespace truepose::formats

@@ -15,12 +15,6 @@ namespace {
 // Euler angles in files have about nine digits; a wrong convention is off by far more.
 constexpr double kMostDisagreementRad = 1e-4;
 
-void SetVector(const std::vector<double>& values, v1::Vector3* vector) {
-  vector->set_x(values[0]);
-  vector->set_y(values[1]);
-  vector->set_z(values[2]);
-}
-
 void SetQuaternion(const QuaternionArray& values, v1::Quaternion* quaternion) {
   quaternion->set_x(values[0]);
   quaternion->set_y(values[1]);
@@ -39,15 +33,18 @@ bool IsIsoTime(std::string_view text) {
 
 ReadingBuilder::ReadingBuilder(const RowReader& reader, const Columns& columns,
                                std::optional<EulerConvention> euler)
-    : reader_(reader), columns_(columns), euler_(std::move(euler)) {}
+    : reader_(reader), columns_(columns), euler_(std::move(euler)), further_(reader, columns) {}
 
 v1::Reading ReadingBuilder::Build(const CsvRow& row, int number) {
   v1::Reading reading;
   reading.set_row(number);
   SetJoints(row, reading);
   SetPosition(row, reading);
+  SetPositionSd(row, reading);
   SetOrientation(row, reading);
   SetAxis(row, reading);
+  CheckCoordinates(row, reading);
+  further_.Read(row, reading);
   SetSurroundings(row, reading);
   SetTime(row, reading);
   for (const Column& column : columns_.extra()) {
@@ -74,17 +71,47 @@ void ReadingBuilder::SetJoints(const CsvRow& row, v1::Reading& reading) {
 }
 
 void ReadingBuilder::SetPosition(const CsvRow& row, v1::Reading& reading) {
-  if (reader_.ReadNumbers(row, Quantity::kPosition, values_) == Outcome::kThere) {
-    SetVector(values_, reading.mutable_position_m());
+  if (reader_.ReadSome(row, Quantity::kPosition, some_) != Outcome::kThere) return;
+  std::string measured;
+  values_.assign(3, 0);
+  for (size_t i = 0; i < some_.size(); ++i) {
+    if (!some_[i]) continue;
+    values_[i] = *some_[i];
+    measured += "xyz"[i];
   }
-  if (reader_.ReadNumbers(row, Quantity::kPositionSd, values_) != Outcome::kThere) return;
-  SetVector(values_, reading.mutable_position_sd_m());
+  SetVector(values_, reading.mutable_position_m());
+  if (measured.size() < 3) reading.set_coordinates(measured);
+}
+
+// A deviation of a coordinate that was not measured is dropped.
+void ReadingBuilder::SetPositionSd(const CsvRow& row, v1::Reading& reading) {
+  if (reader_.ReadSome(row, Quantity::kPositionSd, some_) != Outcome::kThere) return;
   const ColumnGroup& group = *columns_.Find(Quantity::kPositionSd);
-  for (size_t i = 0; i < values_.size(); ++i) {
-    if (values_[i] >= 0) continue;
+  const std::string& measured = reading.coordinates();
+  values_.assign(3, 0);
+  for (size_t i = 0; i < some_.size(); ++i) {
     const Column& column = group.columns[i];
-    reader_.AddFault(row, column.name, Quoted(row.cells[column.cell]),
-                     "a standard deviation, at least 0");
+    const bool is_needed = measured.empty() || measured.find("xyz"[i]) != std::string::npos;
+    if (!is_needed || column.cell == Column::kMissing) continue;
+    if (!some_[i]) {
+      reader_.AddEmptyCell(row, group, column);
+      continue;
+    }
+    values_[i] = *some_[i];
+    if (values_[i] < 0)
+      reader_.AddFault(row, column.name, Quoted(row.cells[column.cell]),
+                       "a standard deviation, at least 0");
+  }
+  SetVector(values_, reading.mutable_position_sd_m());
+}
+
+// Of a pose with a coordinate missing nobody knows whether that was meant.
+void ReadingBuilder::CheckCoordinates(const CsvRow& row, const v1::Reading& reading) {
+  if (reading.coordinates().empty() || (!reading.has_orientation() && !reading.has_axis())) return;
+  const ColumnGroup& group = *columns_.Find(Quantity::kPosition);
+  for (size_t i = 0; i < group.columns.size(); ++i) {
+    if (reading.coordinates().find("xyz"[i]) != std::string::npos) continue;
+    reader_.AddEmptyCell(row, group, group.columns[i]);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "formats/column.h"
+#include "formats/further_reader.h"
 #include "formats/rotation.h"
 #include "formats/row_reader.h"
 #include "truepose/v1/session.pb.h"
@@ -27,6 +28,8 @@ class ReadingBuilder {
 
   void SetJoints(const CsvRow& row, v1::Reading& reading);
   void SetPosition(const CsvRow& row, v1::Reading& reading);
+  void SetPositionSd(const CsvRow& row, v1::Reading& reading);
+  void CheckCoordinates(const CsvRow& row, const v1::Reading& reading);
   void SetOrientation(const CsvRow& row, v1::Reading& reading);
   void SetAxis(const CsvRow& row, v1::Reading& reading);
   void SetSurroundings(const CsvRow& row, v1::Reading& reading);
@@ -41,7 +44,9 @@ class ReadingBuilder {
   const RowReader& reader_;
   const Columns& columns_;
   std::optional<EulerConvention> euler_;
+  FurtherReader further_;
   std::vector<double> values_;  // of the group that is being read
+  std::vector<std::optional<double>> some_;
 };
 
 }  // namespace truepose::formats

@@ -32,6 +32,22 @@ Dimension DimensionOf(const ElementForm& form) {
 
 }  // namespace
 
+std::optional<int> FindJoint(const YamlMap& map, const YamlNode& node, const v1::Nominal& nominal) {
+  int number = 0;
+  if (node.kind == YamlNode::Kind::kScalar) {
+    if (absl::SimpleAtoi(node.text, &number) && number >= 1 && number <= nominal.joints_size()) {
+      return number - 1;
+    }
+    for (int i = 0; i < nominal.joints_size(); ++i) {
+      if (nominal.joints(i).name() == node.text) return i;
+    }
+  }
+  if (nominal.joints_size() == 0) return std::nullopt;
+  map.AddFault(node.key, Describe(node),
+               StrCat("the name of a joint or its number, 1 to ", nominal.joints_size()));
+  return std::nullopt;
+}
+
 void ElementReader::ReadList(const YamlNode& node, const std::string& path,
                              const std::string& message_path, bool with_joints,
                              Elements* elements) {
@@ -78,26 +94,9 @@ bool ElementReader::ReadForm(YamlMap& map, const ElementForm& form, bool with_jo
   element.set_axis(form.axis);
   if (constant) element.set_constant(constant->value);
   if (joint == nullptr) return true;
-  const std::optional<int> index = JointIndex(map, *joint);
+  const std::optional<int> index = FindJoint(map, *joint, nominal_);
   if (index && IsUsable(map, *joint, *index, form)) element.set_joint(*index);
   return true;
-}
-
-// From a number that counts from 1, or from a name.
-std::optional<int> ElementReader::JointIndex(const YamlMap& map, const YamlNode& node) const {
-  int number = 0;
-  if (node.kind == YamlNode::Kind::kScalar) {
-    if (absl::SimpleAtoi(node.text, &number) && number >= 1 && number <= nominal_.joints_size()) {
-      return number - 1;
-    }
-    for (int i = 0; i < nominal_.joints_size(); ++i) {
-      if (nominal_.joints(i).name() == node.text) return i;
-    }
-  }
-  if (nominal_.joints_size() == 0) return std::nullopt;
-  map.AddFault(node.key, Describe(node),
-               StrCat("the name of a joint or its number, 1 to ", nominal_.joints_size()));
-  return std::nullopt;
 }
 
 bool ElementReader::IsUsable(const YamlMap& map, const YamlNode& node, int index,

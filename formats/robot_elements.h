@@ -1,4 +1,4 @@
-// Lists of elementary transforms in a robot file: `chain` and `flange`.
+// Lists of elementary transforms in a robot file, `chain` and `flange`, and how it names joints.
 #pragma once
 
 #include <optional>
@@ -14,6 +14,10 @@ namespace truepose::formats {
 
 // The form of an element: translation or rotation, along or about which axis.
 struct ElementForm;
+
+// The joint, counted from 0, that a node of `map` names or numbers (from 1). A fault and nullopt
+// when there is no such joint; without any joints there is a fault already.
+std::optional<int> FindJoint(const YamlMap& map, const YamlNode& node, const v1::Nominal& nominal);
 
 // Reads the lists of one robot, whose joints are read already, and remembers which joints they
 // move.
@@ -38,7 +42,6 @@ class ElementReader {
                                       bool with_joints);
   bool ReadForm(YamlMap& map, const ElementForm& form, bool with_joints,
                 v1::ElementaryTransform& element);
-  std::optional<int> JointIndex(const YamlMap& map, const YamlNode& node) const;
   bool IsUsable(const YamlMap& map, const YamlNode& node, int index, const ElementForm& form);
 
   const v1::Nominal& nominal_;

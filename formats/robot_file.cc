@@ -160,6 +160,7 @@ absl::StatusOr<RobotFile> ParseRobotFile(std::string_view text, std::string_view
   ReadGeometry(top, file.nominal, file.lines);
   ReadJointMap(top, file.nominal, file.lines);
   ReadTools(top, file.nominal, file.lines);
+  ReadMasses(top, file.nominal, file.lines);
   top.CheckKeys();
   if (!list.empty()) return list.ToStatus();
   return file;

@@ -1,32 +1,15 @@
 #include "formats/robot_parts.h"
 
-#include <array>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "formats/number.h"
-#include "formats/rotation.h"
 #include "formats/strings.h"
 #include "formats/wording.h"
+#include "formats/yaml_pose.h"
 
 namespace truepose::formats {
 namespace {
-
-// n numbers of a list; fewer when one is none.
-std::vector<double> ReadNumbers(const YamlNode& node, const std::string& path, int n,
-                                const YamlFaults& faults) {
-  std::vector<double> numbers;
-  const std::vector<YamlNode>& items = ListItems(node, path, faults);
-  for (size_t i = 0; i < items.size(); ++i) {
-    if (const auto number = NumberOf(items[i], ItemPath(path, i), faults))
-      numbers.push_back(*number);
-  }
-  if (node.kind == YamlNode::Kind::kSequence && static_cast<int>(items.size()) != n) {
-    faults.Add(node.line, path, StrCat(items.size(), " numbers"), StrCat(n, ", as many as joints"));
-  }
-  return numbers;
-}
 
 void ReadScale(YamlMap& map, int n, v1::JointMap& joint_map, FieldLines& lines) {
   const YamlNode* node = map.Find("scale");
@@ -38,7 +21,8 @@ void ReadScale(YamlMap& map, int n, v1::JointMap& joint_map, FieldLines& lines) 
   lines.Set(path, node->line);
   const std::vector<YamlNode>& rows = ListItems(*node, path, map.faults());
   for (size_t i = 0; i < rows.size(); ++i) {
-    for (const double s : ReadNumbers(rows[i], ItemPath(path, i), n, map.faults()))
+    for (const double s :
+         NumbersOf(rows[i], ItemPath(path, i), n, "as many as joints", map.faults()))
       joint_map.add_scale(s);
   }
   if (node->kind == YamlNode::Kind::kSequence && static_cast<int>(rows.size()) != n) {
@@ -56,7 +40,7 @@ void ReadOffsets(YamlMap& map, const v1::Nominal& nominal, Dimension dimension,
   lines.Set(FieldPath(map.path(), "offset"), node->line);
   const std::string path = FieldPath(map.path(), node->key);
   const int n = nominal.joints_size();
-  const std::vector<double> values = ReadNumbers(*node, path, n, map.faults());
+  const std::vector<double> values = NumbersOf(*node, path, n, "as many as joints", map.faults());
   if (static_cast<int>(values.size()) != n) return;
   for (int i = 0; i < n; ++i) {
     const bool prismatic = nominal.joints(i).type() == v1::PRISMATIC;
@@ -69,39 +53,6 @@ void ReadOffsets(YamlMap& map, const v1::Nominal& nominal, Dimension dimension,
   }
 }
 
-// All four or none of them; nullopt after a fault.
-std::optional<QuaternionArray> ReadQuaternion(YamlMap& map) {
-  constexpr std::array<std::string_view, 4> kKeys = {"qx", "qy", "qz", "qw"};
-  QuaternionArray q = {0, 0, 0, 1};
-  size_t found = 0, there = 0;
-  for (size_t i = 0; i < kKeys.size(); ++i) {
-    there += map.Find(kKeys[i]) != nullptr;
-    const auto number = map.FindNumber(kKeys[i]);
-    if (!number) continue;
-    ++found;
-    q[i] = number->value;
-  }
-  if (there != 0 && there != kKeys.size()) {
-    map.faults().Add(map.node().line, map.path(), StrCat(there, " of qx, qy, qz, qw"),
-                     "all four or none");
-  }
-  if (found != there || (there != 0 && there != kKeys.size())) return std::nullopt;
-  return q;
-}
-
-void SetRotation(YamlMap& map, QuaternionArray q, v1::Pose& pose) {
-  if (!NormaliseRounded(q)) {
-    map.faults().Add(map.node().line, StrCat(map.path(), ".qx,qy,qz,qw"),
-                     StrCat("a length of ", FormatNumber(Length(q))), "1 within 0.001");
-    return;
-  }
-  const double sign = q[3] < 0 ? -1 : 1;
-  pose.set_qx(sign * q[0]);
-  pose.set_qy(sign * q[1]);
-  pose.set_qz(sign * q[2]);
-  pose.set_qw(sign * q[3]);
-}
-
 v1::Pose ReadPose(const YamlNode& node, const std::string& path, const YamlFaults& faults) {
   v1::Pose pose;
   YamlMap map(node, path, faults);
@@ -111,7 +62,7 @@ v1::Pose ReadPose(const YamlNode& node, const std::string& path, const YamlFault
   pose.set_x_m(length("x"));
   pose.set_y_m(length("y"));
   pose.set_z_m(length("z"));
-  if (const auto q = ReadQuaternion(map)) SetRotation(map, *q, pose);
+  if (const auto q = FindQuaternion(map)) SetRotation(*q, &pose);
   map.CheckKeys();
   return pose;
 }

@@ -1,4 +1,4 @@
-// The parts `geometry`, `joint_map` and `tools` of a robot file.
+// The parts `geometry`, `joint_map`, `tools` and `masses` of a robot file.
 #pragma once
 
 #include "formats/field_lines.h"
@@ -12,5 +12,6 @@ namespace truepose::formats {
 void ReadGeometry(YamlMap& top, v1::Nominal& nominal, FieldLines& lines);
 void ReadJointMap(YamlMap& top, v1::Nominal& nominal, FieldLines& lines);
 void ReadTools(YamlMap& top, v1::Nominal& nominal, FieldLines& lines);
+void ReadMasses(YamlMap& top, v1::Nominal& nominal, FieldLines& lines);
 
 }  // namespace truepose::formats

@@ -117,6 +117,11 @@ void WriteTool(const v1::Tool& tool, std::string& out) {
             ", qw: ", FormatNumber(pose.qw()), "}\n");
 }
 
+void WriteMass(const v1::LinkMass& mass, std::string& out) {
+  StrAppend(&out, "  - {joint: ", mass.joint() + 1, ", mass_kg: ", FormatNumber(mass.mass_kg()),
+            ", ", EntryOfPosition("center", mass.x_m(), mass.y_m(), mass.z_m()), "}\n");
+}
+
 }  // namespace
 
 std::string WriteRobotFile(const RobotFile& file) {
@@ -129,6 +134,8 @@ std::string WriteRobotFile(const RobotFile& file) {
   if (nominal.has_joint_map()) WriteJointMap(nominal, out);
   if (nominal.tools_size() > 0) StrAppend(&out, "tools:\n");
   for (const v1::Tool& tool : nominal.tools()) WriteTool(tool, out);
+  if (nominal.masses_size() > 0) StrAppend(&out, "masses:\n");
+  for (const v1::LinkMass& mass : nominal.masses()) WriteMass(mass, out);
   return out;
 }
 

@@ -22,26 +22,35 @@ RowReader::RowReader(const CsvTable& table, const Columns& columns, std::string_
 
 RowReader::Outcome RowReader::ReadNumbers(const CsvRow& row, Quantity quantity,
                                           std::vector<double>& values) const {
+  std::vector<std::optional<double>> cells;
+  const Outcome outcome = ReadSome(row, quantity, cells);
+  if (outcome != Outcome::kThere) return outcome;
+  const ColumnGroup& group = *columns_.Find(quantity);
+  values.clear();
+  for (size_t i = 0; i < cells.size(); ++i) {
+    if (cells[i]) values.push_back(*cells[i]);
+    if (!cells[i]) AddEmptyCell(row, group, group.columns[i]);
+  }
+  return values.size() == cells.size() ? Outcome::kThere : Outcome::kFaulty;
+}
+
+RowReader::Outcome RowReader::ReadSome(const CsvRow& row, Quantity quantity,
+                                       std::vector<std::optional<double>>& values) const {
   const ColumnGroup* group = columns_.Find(quantity);
   if (group == nullptr) return Outcome::kAbsent;
-  values.clear();
-  bool readable = true;
-  size_t empty = 0;
-  for (const Column& column : group->columns) {
+  values.assign(group->columns.size(), std::nullopt);
+  bool readable = true, any = false;
+  for (size_t i = 0; i < values.size(); ++i) {
+    const Column& column = group->columns[i];
+    if (IsEmpty(row, column)) continue;
+    any = true;
     double value = 0;
-    if (IsEmpty(row, column)) {
-      ++empty;
-    } else if (!ReadNumber(row, column, value)) {
-      readable = false;
-    }
-    values.push_back(value);
+    readable = ReadNumber(row, column, value) && readable;
+    values[i] = value;
   }
   // Of an incomplete group the header has the fault already.
   if (!readable || !group->complete) return Outcome::kFaulty;
-  if (empty == group->columns.size()) return Outcome::kAbsent;
-  if (empty == 0) return Outcome::kThere;
-  AddPartlyEmpty(row, *group);
-  return Outcome::kFaulty;
+  return any ? Outcome::kThere : Outcome::kAbsent;
 }
 
 std::string_view RowReader::ReadText(const CsvRow& row, Quantity quantity) const {
@@ -67,13 +76,11 @@ bool RowReader::ReadNumber(const CsvRow& row, const Column& column, double& valu
   return true;
 }
 
-void RowReader::AddPartlyEmpty(const CsvRow& row, const ColumnGroup& group) const {
+void RowReader::AddEmptyCell(const CsvRow& row, const ColumnGroup& group,
+                             const Column& empty) const {
   const auto full = std::find_if_not(group.columns.begin(), group.columns.end(),
                                      [&](const Column& column) { return IsEmpty(row, column); });
-  for (const Column& column : group.columns) {
-    if (!IsEmpty(row, column)) continue;
-    AddFault(row, column.name, "an empty cell", StrCat("a number, as ", full->name, " has one"));
-  }
+  AddFault(row, empty.name, "an empty cell", StrCat("a number, as ", full->name, " has one"));
 }
 
 }  // namespace truepose::formats

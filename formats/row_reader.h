@@ -2,6 +2,7 @@
 // them.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +29,10 @@ class RowReader {
   // and so are empty cells beside full ones. `values` holds them only for kThere.
   Outcome ReadNumbers(const CsvRow& row, Quantity quantity, std::vector<double>& values) const;
 
+  // The same for a group whose cells may be empty one by one; kThere when any is full.
+  Outcome ReadSome(const CsvRow& row, Quantity quantity,
+                   std::vector<std::optional<double>>& values) const;
+
   // The text of a quantity with one column; "" when it is absent.
   std::string_view ReadText(const CsvRow& row, Quantity quantity) const;
 
@@ -35,9 +40,11 @@ class RowReader {
   void AddFault(const CsvRow& row, std::string_view column, std::string found,
                 std::string expected) const;
 
+  // A fault for an empty cell beside the first full one of the group.
+  void AddEmptyCell(const CsvRow& row, const ColumnGroup& group, const Column& empty) const;
+
  private:
   bool ReadNumber(const CsvRow& row, const Column& column, double& value) const;
-  void AddPartlyEmpty(const CsvRow& row, const ColumnGroup& group) const;
 
   const CsvTable& table_;
   const Columns& columns_;

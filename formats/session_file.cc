@@ -10,6 +10,7 @@
 #include "core/base/status_macros.h"
 #include "formats/column.h"
 #include "formats/csv.h"
+#include "formats/further_reader.h"
 #include "formats/reading_builder.h"
 #include "formats/row_reader.h"
 #include "formats/strings.h"
@@ -64,6 +65,32 @@ class Repeats {
   size_t count_ = 0;
 };
 
+// Finds rows with fewer coordinates than the table has columns: an empty cell may be a slip.
+class FewerCoordinates {
+ public:
+  explicit FewerCoordinates(const Columns& columns) {
+    const ColumnGroup* group = columns.Find(Quantity::kPosition);
+    if (group == nullptr) return;
+    for (const Column& column : group->columns) columns_ += column.cell != Column::kMissing;
+  }
+
+  void Note(const CsvRow& row, const v1::Reading& reading) {
+    if (reading.coordinates().empty() || reading.coordinates().size() == columns_) return;
+    if (count_++ < kMostRepeatsShown) shown_.push_back(row.line);
+  }
+
+  std::optional<std::string> Warning(std::string_view file_name) const {
+    if (count_ == 0) return std::nullopt;
+    return StrCat(file_name, ": only some of x, y, z are there and taken as they are: line ",
+                  absl::StrJoin(shown_, ", line "),
+                  count_ > shown_.size() ? StrCat(" and ", count_ - shown_.size(), " more") : "");
+  }
+
+ private:
+  size_t columns_ = 0, count_ = 0;
+  std::vector<int> shown_;
+};
+
 // "q1_rad to q6_rad"
 std::string JointNames(const v1::Nominal& nominal, std::string_view infix) {
   const int n = nominal.joints_size();
@@ -90,13 +117,14 @@ std::optional<EulerConvention> Convention(const SessionFileOptions& options, Fau
 }
 
 std::vector<v1::Reading> ReadRows(const CsvTable& table, ReadingBuilder& builder, Repeats& repeats,
-                                  const FaultList& faults) {
+                                  FewerCoordinates& fewer, const FaultList& faults) {
   std::vector<v1::Reading> readings;
   readings.reserve(table.rows.size());
   for (const CsvRow& row : table.rows) {
     if (IsEnough(faults)) break;
     if (repeats.IsRepeat(row)) continue;
     readings.push_back(builder.Build(row, static_cast<int>(readings.size())));
+    fewer.Note(row, readings.back());
   }
   return readings;
 }
@@ -112,8 +140,8 @@ std::string EulerHint(const Names& extra) {
   return "";
 }
 
-void AddWarnings(const Columns& columns, const Repeats& repeats, const SessionFileOptions& options,
-                 std::string_view file_name, SessionFile& file) {
+void AddWarnings(const Columns& columns, const Repeats& repeats, const FewerCoordinates& fewer,
+                 const SessionFileOptions& options, std::string_view file_name, SessionFile& file) {
   const auto& extra = file.session.extra_columns();
   if (!extra.empty()) {
     file.warnings.push_back(StrCat(file_name, ": columns that are kept but not used: ",
@@ -124,6 +152,7 @@ void AddWarnings(const Columns& columns, const Repeats& repeats, const SessionFi
         StrCat(file_name, ": no columns rx_, ry_, rz_ for the convention ", options.euler));
   }
   if (auto warning = repeats.Warning(file_name)) file.warnings.push_back(*std::move(warning));
+  if (auto warning = fewer.Warning(file_name)) file.warnings.push_back(*std::move(warning));
 }
 
 }  // namespace
@@ -141,21 +170,24 @@ absl::StatusOr<SessionFile> ParseSessionFile(std::string_view text, std::string_
   const std::optional<EulerConvention> euler = Convention(options, faults);
   const CsvTable table = ParseCsv(text, file_name, faults);
   if (table.header.cells.empty()) return faults.ToStatus();
-  const auto known = KnownColumns(nominal, !options.euler.empty());
+  const auto known = SessionColumns(nominal, !options.euler.empty());
   const Columns columns(table.header, known, file_name, faults);
-  CheckHasJoints(columns, nominal, StrCat(file_name, ":", table.header.line), faults);
+  const std::string header = StrCat(file_name, ":", table.header.line);
+  CheckHasJoints(columns, nominal, header, faults);
+  CheckDeviationColumns(columns, header, faults);
   const RowReader reader(table, columns, file_name, faults);
   ReadingBuilder builder(reader, columns, euler);
   Repeats repeats;
+  FewerCoordinates fewer(columns);
   SessionFile file;
   file.session.set_source(std::string(BaseName(file_name)));
   for (const Column& column : columns.extra()) file.session.add_extra_columns(column.name);
-  file.readings = ReadRows(table, builder, repeats, faults);
+  file.readings = ReadRows(table, builder, repeats, fewer, faults);
   if (file.readings.empty() && faults.empty()) {
     faults.Add(std::string(file_name), "no rows under the header", "at least one reading");
   }
   if (!faults.empty()) return faults.ToStatus();
-  AddWarnings(columns, repeats, options, file_name, file);
+  AddWarnings(columns, repeats, fewer, options, file_name, file);
   return file;
 }
 

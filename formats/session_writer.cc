@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "formats/csv.h"
+#include "formats/known_column.h"
 #include "formats/number.h"
 #include "formats/session_file.h"
 #include "formats/strings.h"
@@ -69,10 +70,57 @@ void AddTextFields(std::vector<Field>& fields) {
   fields.push_back({{"group"}, [](const R& r) { return CellsOf(r.group()); }});
 }
 
+// Coordinates that were not measured stay empty, and so do their deviations.
+Cells CellsOfMeasured(const v1::Vector3& v, const std::string& coordinates) {
+  Cells cells = CellsOf(v);
+  for (size_t i = 0; i < cells.size() && !coordinates.empty(); ++i) {
+    if (coordinates.find("xyz"[i]) == std::string::npos) cells[i].clear();
+  }
+  return cells;
+}
+
+const v1::MeasuredPoint* FindPoint(const v1::Reading& reading, const std::string& target) {
+  const auto it = std::find_if(reading.points().begin(), reading.points().end(),
+                               [&](const auto& point) { return point.target() == target; });
+  return it == reading.points().end() ? nullptr : &*it;
+}
+
+void AddPointFields(const std::string& target, std::vector<Field>& fields) {
+  const auto names = [&](std::string_view infix) {
+    return Names{StrCat(target, infix, "x_m"), StrCat(target, infix, "y_m"),
+                 StrCat(target, infix, "z_m")};
+  };
+  fields.push_back({names("_"), [target](const v1::Reading& r) {
+                      const v1::MeasuredPoint* point = FindPoint(r, target);
+                      return point ? CellsOf(point->position_m()) : Cells();
+                    }});
+  fields.push_back({names("_s"), [target](const v1::Reading& r) {
+                      const v1::MeasuredPoint* point = FindPoint(r, target);
+                      return point && point->has_position_sd_m() ? CellsOf(point->position_sd_m())
+                                                                 : Cells();
+                    }});
+}
+
+void AddFurtherFields(std::vector<Field>& fields) {
+  using R = v1::Reading;
+  for (int point = 1; point <= kMostPoints; ++point) AddPointFields(StrCat("p", point), fields);
+  fields.push_back({{"distance_m"}, [](const R& r) {
+                      return r.has_distance_m() ? CellsOf(std::array{r.distance_m()}) : Cells();
+                    }});
+  fields.push_back({{"distance_sd_m"}, [](const R& r) {
+                      return r.has_distance_sd_m() ? CellsOf(std::array{r.distance_sd_m()})
+                                                   : Cells();
+                    }});
+  fields.push_back({{"anchor"}, [](const R& r) { return CellsOf(r.anchor()); }});
+  fields.push_back({{"beam"}, [](const R& r) { return CellsOf(r.beam()); }});
+  fields.push_back({{"feature"}, [](const R& r) { return CellsOf(r.feature()); }});
+}
+
 void AddMeasurementFields(std::vector<Field>& fields) {
   using R = v1::Reading;
   fields.push_back({{"x_m", "y_m", "z_m"}, [](const R& r) {
-                      return r.has_position_m() ? CellsOf(r.position_m()) : Cells();
+                      return r.has_position_m() ? CellsOfMeasured(r.position_m(), r.coordinates())
+                                                : Cells();
                     }});
   fields.push_back({{"qx", "qy", "qz", "qw"}, [](const R& r) {
                       return r.has_orientation() ? CellsOf(r.orientation()) : Cells();
@@ -80,7 +128,9 @@ void AddMeasurementFields(std::vector<Field>& fields) {
   fields.push_back({{"axis_x", "axis_y", "axis_z"},
                     [](const R& r) { return r.has_axis() ? CellsOf(r.axis()) : Cells(); }});
   fields.push_back({{"sx_m", "sy_m", "sz_m"}, [](const R& r) {
-                      return r.has_position_sd_m() ? CellsOf(r.position_sd_m()) : Cells();
+                      return r.has_position_sd_m()
+                                 ? CellsOfMeasured(r.position_sd_m(), r.coordinates())
+                                 : Cells();
                     }});
   fields.push_back({{"temp_C"}, [](const R& r) {
                       return r.has_temperature_c() ? CellsOf(std::array{r.temperature_c()})
@@ -101,6 +151,7 @@ std::vector<Field> UsedFields(const v1::Nominal& nominal, const v1::Session& ses
   AddTextFields(fields);
   AddJointFields(nominal, fields);
   AddMeasurementFields(fields);
+  AddFurtherFields(fields);
   std::erase_if(fields, [&](const Field& field) {
     return std::all_of(readings.begin(), readings.end(),
                        [&](const v1::Reading& reading) { return field.cells(reading).empty(); });

@@ -16,13 +16,14 @@ double FromMillimetres(double mm) { return mm / 1000; }
 double FromDegrees(double deg) { return deg / 180 * std::numbers::pi; }
 
 // Of each dimension the one for people first.
-constexpr std::array<Unit, 6> kUnits = {{
+constexpr std::array<Unit, 7> kUnits = {{
     {"deg", Dimension::kAngle, &FromDegrees},
     {"rad", Dimension::kAngle, &Same},
     {"mm", Dimension::kLength, &FromMillimetres},
     {"m", Dimension::kLength, &Same},
     {"C", Dimension::kTemperature, &Same},
     {"Nm", Dimension::kTorque, &Same},
+    {"kg", Dimension::kMass, &Same},
 }};
 
 }  // namespace
@@ -51,6 +52,19 @@ Measure MeasureForPeople(double si, Dimension dimension) {
   const auto read = ParseNumber(digits);
   if (read.has_value() && unit.to_si(*read) == si) return {unit.symbol, std::move(digits)};
   return {angle ? "rad" : "m", FormatNumber(si)};
+}
+
+std::string EntryOfPosition(std::string_view stem, double x_m, double y_m, double z_m) {
+  const std::array<double, 3> si = {x_m, y_m, z_m};
+  std::array<Measure, 3> entries;
+  bool all_mm = true;
+  for (size_t i = 0; i < si.size(); ++i) {
+    entries[i] = MeasureForPeople(si[i], Dimension::kLength);
+    all_mm = all_mm && entries[i].symbol == "mm";
+  }
+  for (size_t i = 0; i < si.size() && !all_mm; ++i) entries[i].digits = FormatNumber(si[i]);
+  return StrCat(stem, all_mm ? "_mm: [" : "_m: [", entries[0].digits, ", ", entries[1].digits, ", ",
+                entries[2].digits, "]");
 }
 
 }  // namespace truepose::formats

@@ -7,7 +7,7 @@
 
 namespace truepose::formats {
 
-enum class Dimension { kNone, kAngle, kLength, kTemperature, kTorque };
+enum class Dimension { kNone, kAngle, kLength, kTemperature, kTorque, kMass };
 
 struct Unit {
   std::string_view symbol;  // "mm"
@@ -30,5 +30,8 @@ struct Measure {
 // In mm or deg when at most 12 digits read back as the same bits, else in m or rad.
 // @param dimension kLength or kAngle.
 Measure MeasureForPeople(double si, Dimension dimension);
+
+// "stem_mm: [1, 2, 3]" of lengths in m, in mm when that reads back as the same bits, else in m.
+std::string EntryOfPosition(std::string_view stem, double x_m, double y_m, double z_m);
 
 }  // namespace truepose::formats

@@ -48,6 +48,20 @@ std::optional<double> NumberOf(const YamlNode& node, std::string_view path,
   return number;
 }
 
+std::vector<double> NumbersOf(const YamlNode& node, std::string_view path, int n,
+                              std::string_view why, const YamlFaults& faults) {
+  std::vector<double> numbers;
+  const std::vector<YamlNode>& items = ListItems(node, path, faults);
+  for (size_t i = 0; i < items.size(); ++i) {
+    if (const auto number = NumberOf(items[i], ItemPath(path, i), faults))
+      numbers.push_back(*number);
+  }
+  if (node.kind == Kind::kSequence && static_cast<int>(items.size()) != n) {
+    faults.Add(node.line, path, StrCat(items.size(), " numbers"), StrCat(n, ", ", why));
+  }
+  return numbers;
+}
+
 YamlMap::YamlMap(const YamlNode& node, std::string path, const YamlFaults& faults)
     : node_(node), path_(std::move(path)), faults_(faults) {
   if (is_map()) {

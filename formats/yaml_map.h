@@ -34,6 +34,11 @@ const std::vector<YamlNode>& ListItems(const YamlNode& node, std::string_view pa
 std::optional<double> NumberOf(const YamlNode& node, std::string_view path,
                                const YamlFaults& faults);
 
+// `n` numbers of a list; fewer, with a fault, when there is another count or one is none. @param
+// why n: "as many as joints".
+std::vector<double> NumbersOf(const YamlNode& node, std::string_view path, int n,
+                              std::string_view why, const YamlFaults& faults);
+
 struct YamlNumber {
   double value = 0;
   int line = 0;

@@ -7,9 +7,11 @@
 #include "client/cli/json.h"
 #include "client/cli/outcome.h"
 #include "convert/digest.h"
+#include "convert/fixture.h"
 #include "convert/run.h"
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
+#include "formats/fixture_file.h"
 #include "formats/session_file.h"
 #include "formats/text_file.h"
 
@@ -41,6 +43,14 @@ absl::StatusOr<formats::RobotFile> LoadRobot(const std::string& path) {
   TRUEPOSE_RETURN_IF_ERROR(
       formats::LocateFaults(convert::ValidateNominal(file->nominal), file->lines));
   return file;
+}
+
+absl::StatusOr<v1::Fixture> LoadFixture(const std::string& path) {
+  absl::StatusOr<formats::FixtureFile> file = formats::ReadFixtureFile(path);
+  if (!file.ok()) return AsInputFault(file.status());
+  TRUEPOSE_RETURN_IF_ERROR(
+      formats::LocateFaults(convert::ValidateFixture(file->fixture), file->lines));
+  return std::move(file->fixture);
 }
 
 absl::StatusOr<std::vector<v1::SessionInput>> LoadSessions(const std::vector<std::string>& paths,

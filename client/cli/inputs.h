@@ -28,6 +28,9 @@ absl::StatusOr<std::vector<v1::SessionInput>> LoadSessions(const std::vector<std
 absl::Status CheckLimits(const v1::Nominal& nominal, const v1::SessionInput& session, bool strict,
                          const Console& console);
 
+// A fixture file whose content convert::ValidateFixture accepts.
+absl::StatusOr<v1::Fixture> LoadFixture(const std::string& path);
+
 // A file that `calibrate --output` wrote (or `simulate --truth`).
 absl::StatusOr<v1::Calibration> LoadCalibration(const std::string& path);
 

@@ -14,7 +14,8 @@ constexpr int kReadingsOfASort = 100;
 // What makes readings differ in which parameters they show.
 bool SameSort(const Reading& a, const Reading& b) {
   return a.placement == b.placement && a.target == b.target && a.kind == b.kind &&
-         a.coordinates == b.coordinates && a.offset == b.offset && a.anchor_M == b.anchor_M;
+         a.coordinates == b.coordinates && a.offset == b.offset && a.anchor_M == b.anchor_M &&
+         a.normal_M == b.normal_M;
 }
 
 std::vector<const Reading*> Sorts(const Problem& problem) {

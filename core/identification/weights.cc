@@ -14,7 +14,7 @@ constexpr double kLeastVariance = 1e-18;
 
 bool NeedsFullCovariance(const Reading& reading) {
   return reading.covariance.has_value() || reading.joint_sd.size() > 0 ||
-         reading.kind == ObservationKind::kDistance;
+         reading.kind == ObservationKind::kDistance || reading.kind == ObservationKind::kPlane;
 }
 
 // S_stated + J_q S_q J_q' as the residual sees it, for readings whose rows are correlated.

@@ -91,12 +91,22 @@ void EvaluateDistance(const Reading& reading, const Pose& X_MT, Residual* r, Res
   if (length > 0) D->leftCols<3>() = -line.transpose() / length;
 }
 
-constexpr std::array<MeasurementKind, 5> kKinds = {{
+// Where in the plane the tool touches is not seen.
+void EvaluatePlane(const Reading& reading, const Pose& X_MT, Residual* r, ResidualByTwist* D) {
+  r->resize(1);
+  (*r)(0) = reading.normal_M.dot(reading.X_MT.p - X_MT.p);
+  if (D == nullptr) return;
+  D->setZero(1, 6);
+  D->leftCols<3>() = -reading.normal_M.transpose();
+}
+
+constexpr std::array<MeasurementKind, 6> kKinds = {{
     {ObservationKind::kPose, "pose", 3, 3, EvaluatePose},
     {ObservationKind::kPoint, "point", 3, 0, EvaluatePoint},
     {ObservationKind::kPointAxis, "point_axis", 3, 2, EvaluatePointAxis},
     {ObservationKind::kCoordinates, "coordinates", 3, 0, EvaluateCoordinates},
     {ObservationKind::kDistance, "distance", 1, 0, EvaluateDistance},
+    {ObservationKind::kPlane, "plane", 1, 0, EvaluatePlane},
 }};
 
 }  // namespace

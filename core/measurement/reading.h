@@ -3,13 +3,13 @@
 // Frames: M instrument, T tool (target). A residual is measured minus predicted *at the tool
 // point*, in axes of M: position p_MT_measured - p_MT_predicted in m, rotation Log(R_MT_measured *
 // R_MT_predicted^T) in rad; for an axis the two components, perpendicular to the measured axis, of
-// the rotation vector that carries the predicted axis to it. Position and rotation are taken
+// the rotation vector that carries the predicted axis to it; for a plane n . (p_MT_measured -
+// p_MT_predicted), along its normal n alone. Position and rotation are taken
 // separately (chapter-notes 14), so orientation noise does not leak into position.
 //
 // What looks like further kinds is one of these with the right frame M:
 //   several points a reading   readings of kPoint with a target each
-//   a plane                    kCoordinates of z alone, z = 0, M in the plane (one placement a
-//   plane) ball in sockets            kPoint at the socket's place in a frame M of the socket block
+//   ball in sockets            kPoint at the socket's place in a frame M of the socket block
 //   distance to an unknown point   kDistance to the origin of a placement of its own
 //   difference of distances    kDistance with an unknown constant (Reading::offset)
 //   pose matching              kPose or kPointAxis at the fixture's pose, with joint_sd
@@ -30,7 +30,8 @@ enum class ObservationKind {
   kPoint = 1,
   kPointAxis = 2,
   kCoordinates = 3,
-  kDistance = 4
+  kDistance = 4,
+  kPlane = 5
 };
 
 struct Reading {
@@ -43,11 +44,12 @@ struct Reading {
   Pose X_MT;  // measured; R is used by kPose only
   Eigen::Vector3d axis_M =
       Eigen::Vector3d::UnitZ();  // measured unit z axis of T, used by kPointAxis only
+  Eigen::Vector3d normal_M = Eigen::Vector3d::UnitZ();  // kPlane: of the plane through X_MT.p
   std::array<bool, 3> coordinates = {true, true, true};  // which of x, y, z kCoordinates has
   Eigen::Vector3d anchor_M = Eigen::Vector3d::Zero();    // kDistance: measured from here
   double distance_m = 0;                                 // kDistance: the measured value
   // Stated uncertainty, each zero or empty where none is stated. A distance takes position_sd_m
-  // along its line.
+  // along its line, a plane along its normal.
   Eigen::Vector3d position_sd_m = Eigen::Vector3d::Zero();  // per axis of M
   double rotation_sd_rad = 0;                               // per axis
   Eigen::VectorXd joint_sd;  // of q; rad or m; carried through the joint Jacobian

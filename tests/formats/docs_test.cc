@@ -6,10 +6,12 @@
 //   ```csv targets RRRRRR      targets
 //   ```csv session-fault RR    a session whose faults are the next block, ```text faults
 //   ```yaml robot-fault        the same for a robot file
+//   ```yaml fixture, fixture-fault   the same for a fixture
 #include <set>
 
 #include "absl/strings/str_join.h"
 #include "absl/strings/str_split.h"
+#include "formats/fixture_file.h"
 #include "formats/robot_file.h"
 #include "formats/session_file.h"
 #include "formats/targets_file.h"
@@ -49,6 +51,7 @@ std::string FaultText(const std::vector<std::string>& faults) {
 std::vector<std::string> FaultsOfBlock(const Block& block) {
   const std::string& kind = block.words.at(1);
   if (kind.rfind("robot", 0) == 0) return Faults(ParseRobotFile(block.text, "robot.yaml"));
+  if (kind.rfind("fixture", 0) == 0) return Faults(ParseFixtureFile(block.text, "fixture.yaml"));
   const v1::Nominal robot = RobotOf(block.words.at(2));
   if (kind == "targets") return Faults(ParseTargetsFile(block.text, "targets.csv", robot));
   const std::string euler = block.words.size() > 3 ? block.words[3] : "";
@@ -73,7 +76,9 @@ TEST(DocsTest, ExamplesDoWhatThePageSays) {
     }
   }
   EXPECT_GE(kinds.count("robot"), 3);
-  EXPECT_GE(kinds.count("session"), 7);
+  EXPECT_GE(kinds.count("session"), 11);
+  EXPECT_GE(kinds.count("fixture"), 2);
+  EXPECT_GE(kinds.count("fixture-fault"), 1);
   EXPECT_GE(kinds.count("targets"), 2);
   EXPECT_GE(kinds.count("session-fault"), 1);
   EXPECT_GE(kinds.count("robot-fault"), 1);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "formats/fixture_file.h"
 #include "formats/robot_file.h"
 #include "formats/targets_file.h"
 #include "gmock/gmock.h"
@@ -98,6 +99,28 @@ TEST(ExampleFilesTest, EveryExampleReadsBack) {
     const RobotFile again = ValueOf(ParseRobotFile(WriteRobotFile(file), name));
     EXPECT_TRUE(google::protobuf::util::MessageDifferencer::Equals(again.nominal, file.nominal))
         << name;
+  }
+}
+
+// Catches: a dime whose features do not stand where its drawing says, and the sockets of a golden
+// test.
+TEST(ExampleFilesTest, Fixtures) {
+  const auto read = [](const std::string& name) {
+    return ValueOf(ReadFixtureFile(TRUEPOSE_SOURCE_DIR "/deploy/examples/" + name)).fixture;
+  };
+  const v1::Fixture sockets = read("sockets.yaml");
+  ASSERT_EQ(sockets.features_size(), 2);
+  EXPECT_EQ(sockets.features(1).name(), "1");
+  EXPECT_EQ(sockets.features(1).pose().x_m(), 0.05);
+  EXPECT_EQ(std::sqrt(sockets.features(1).covariance(0)), 0.02e-3);
+  const v1::Fixture dime = read("dime.yaml");
+  ASSERT_EQ(dime.features_size(), 6);
+  EXPECT_EQ(dime.features(2).kind(), v1::FEATURE_POINT_AXIS);
+  for (const v1::Fixture& fixture : {sockets, dime}) {
+    const v1::Fixture again =
+        ValueOf(ParseFixtureFile(WriteFixtureFile(fixture), fixture.name())).fixture;
+    EXPECT_TRUE(google::protobuf::util::MessageDifferencer::Equals(again, fixture))
+        << WriteFixtureFile(fixture);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "core/base/fault.h"
+#include "formats/fixture_file.h"
 #include "formats/robot_file.h"
 #include "formats/session_file.h"
 #include "formats/targets_file.h"
@@ -36,7 +37,17 @@ constexpr char kRobot[] =
     "geometry:\n  chain: [{tz_mm: 127.3}, {rz_joint: turn}, {rx_deg: -90}, {tz_joint: 2}]\n"
     "  flange:\n    - {tz_mm: 107}\n"
     "joint_map: {scale: [[1, 0], [0.5, -1]], offset_deg: [90, 0], offset_mm: [0, 12]}\n"
-    "tools:\n  pin: {z_mm: 161}\n  'the hand': {x_mm: 1, qx: 0, qy: 0, qz: 0.8, qw: 0.6}\n";
+    "tools:\n  pin: {z_mm: 161}\n  'the hand': {x_mm: 1, qx: 0, qy: 0, qz: 0.8, qw: 0.6}\n"
+    "masses:\n  - {joint: slide, mass_kg: 5.1, center_mm: [0, 1, 300]}\n";
+
+constexpr char kFixture[] =
+    "name: dime\nfeatures:\n"
+    "  - {name: 1, kind: point, position_mm: [1, 2, 3], sd_mm: [0.02, 0, 0.1]}\n"
+    "  - {name: hole, kind: point_axis, position_m: [0, 0, 1], axis: [0, 0.6, 0.8], sd_deg: 0.1}\n"
+    "  - name: seat\n    kind: pose\n    position_mm: [4, 5, 6]\n    rpy_deg: [90, 0, -45]\n"
+    "    covariance_mm_deg: [[4, 1, 0, 0, 0, 0], [1, 4, 0, 0, 0, 0], [0, 0, 4, 0, 0, 0],\n"
+    "      [0, 0, 0, 1, 0, 0], [0, 0, 0, 0, 1, 0.5], [0, 0, 0, 0, 0.5, 1]]\n"
+    "  - {name: top, kind: plane, position_mm: [0, 0, 40], qx: 0, qy: 0, qz: 0.8, qw: -0.6}\n";
 
 constexpr char kDh[] =
     "robot: r\njoints: [{name: a, type: revolute}]\n"
@@ -124,6 +135,50 @@ TEST(MutationTest, Sessions) {
   EXPECT_LT(read, kCases / 2);
 }
 
+constexpr char kFurther[] =
+    "q1_deg,q2_mm,x_mm,z_mm,sx_mm,sz_mm,p1_x_mm,p1_y_mm,p1_z_mm,p1_sx_mm,p1_sy_mm,p1_sz_mm,p3_x_m,"
+    "p3_y_m,p3_z_m,distance_mm,distance_sd_m,anchor,beam,feature\n"
+    "1,2,3,4,0.1,0.2,5,6,7,0.1,0.1,0.1,1,2,3,500,0.001,A,,\n"
+    "2,3,,4,,0.2,,,,,,,1,2,3,-5,,A,b1,f\n3,4,,,,,,,,,,,,,,,,,,f\n";
+
+// The columns that most files do not have.
+TEST(MutationTest, FurtherMeasurements) {
+  const v1::Nominal robot = RobotOf("RP");
+  ASSERT_TRUE(ParseSessionFile(kFurther, "s.csv", robot).ok());
+  Mutator mutator(6);
+  int read = 0;
+  for (int i = 0; i < kCases && !HasFailure(); ++i) {
+    const std::string text = mutator.Damage(kFurther);
+    const auto result = ParseSessionFile(text, "s.csv", robot);
+    if (!IsValueOrFaults(result, text)) continue;
+    ++read;
+    const std::string written = WriteSessionFile(robot, result->session, result->readings);
+    const auto again = ParseSessionFile(written, "s.csv", robot);
+    ASSERT_TRUE(again.ok()) << text << written << again.status();
+    ASSERT_EQ(WriteSessionFile(robot, again->session, again->readings), written) << text;
+  }
+  EXPECT_GT(read, kCases / 50);
+  EXPECT_LT(read, kCases / 2);
+}
+
+TEST(MutationTest, Fixtures) {
+  ASSERT_TRUE(ParseFixtureFile(kFixture, "f.yaml").ok());
+  Mutator mutator(7);
+  int read = 0;
+  for (int i = 0; i < kCases && !HasFailure(); ++i) {
+    const std::string text = mutator.Damage(kFixture);
+    const auto result = ParseFixtureFile(text, "f.yaml");
+    if (!IsValueOrFaults(result, text)) continue;
+    ++read;
+    const std::string written = WriteFixtureFile(result->fixture);
+    const auto again = ParseFixtureFile(written, "f.yaml");
+    ASSERT_TRUE(again.ok()) << text << "\n" << written << again.status();
+    ASSERT_EQ(WriteFixtureFile(again->fixture), written) << text;
+  }
+  EXPECT_GT(read, kCases / 200);
+  EXPECT_LT(read, kCases / 2);
+}
+
 TEST(MutationTest, Targets) {
   const v1::Nominal robot = RobotOf("RP");
   ASSERT_TRUE(ParseTargetsFile(kTargets, "t.csv", robot).ok());
@@ -165,6 +220,7 @@ TEST(MutationTest, Noise) {
     std::string text(random() % 200, '\0');
     for (char& c : text) c = static_cast<char>(i % 2 == 0 ? random() : 32 + random() % 95);
     IsValueOrFaults(ParseRobotFile(text, "r.yaml"), text);
+    IsValueOrFaults(ParseFixtureFile(text, "f.yaml"), text);
     IsValueOrFaults(ParseSessionFile(text, "s.csv", robot), text);
     IsValueOrFaults(ParseTargetsFile(text, "t.csv", robot), text);
   }

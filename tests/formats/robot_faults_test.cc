@@ -28,10 +28,11 @@ struct Lines {
 TEST(RobotFaultsTest, TheSampleHasNone) { EXPECT_THAT(FaultsIn(Lines().Text()), IsEmpty()); }
 
 TEST(RobotFaultsTest, NamesUnknownKeysWithTheNearestKnownOne) {
-  EXPECT_THAT(FaultsIn(Lines{.more = "seriel: x\npayload: 3"}.Text()),
-              ElementsAre("r.yaml:4: 'seriel': found an unknown key, expected serial",
-                          "r.yaml:5: 'payload': found an unknown key, expected robot, serial, "
-                          "manufacturer, model, kind, joints, geometry, joint_map or tools"));
+  EXPECT_THAT(
+      FaultsIn(Lines{.more = "seriel: x\npayload: 3"}.Text()),
+      ElementsAre("r.yaml:4: 'seriel': found an unknown key, expected serial",
+                  "r.yaml:5: 'payload': found an unknown key, expected robot, serial, "
+                  "manufacturer, model, kind, joints, geometry, joint_map, tools or masses"));
   EXPECT_THAT(FaultsIn(Lines{.joints = "joints: [{nme: a, type: revolute, name: a}]"}.Text()),
               ElementsAre("r.yaml:2: joints[0].'nme': found an unknown key, expected name"));
 }
@@ -228,6 +229,30 @@ TEST(RobotFaultsTest, NamesTooManyJoints) {
   for (int i = 0; i < 65; ++i) joints += "  - {name: j" + std::to_string(i) + ", type: revolute}\n";
   EXPECT_THAT(FaultsIn(Lines{.joints = joints, .more = "joint_map: {}"}.Text()),
               ElementsAre("r.yaml:2: joints: found 65 joints, expected at most 64"));
+}
+
+// Catches: a mass that hangs on joint 0 because its name was not found, a centre taken in metres.
+TEST(RobotFaultsTest, NamesFaultsOfMasses) {
+  EXPECT_THAT(
+      FaultsIn(Lines{.more = "masses:\n  - {joint: b, mass_kg: 1, center_mm: [1, 2, 3]}\n"
+                             "  - {joint: 1, mass: 1, center_mm: [1, 2]}\n"
+                             "  - {joint: a, mass_kg: -1, center_in: [1, 2, 3]}\n"
+                             "  - {mass_kg: 1, mass_g: 2}\n  - 3"}
+                   .Text()),
+      ElementsAre(
+          "r.yaml:5: masses[0].joint: found 'b', expected the name of a joint or its number, 1 to "
+          "1",
+          "r.yaml:6: masses[1].mass: found the key 'mass', expected mass_kg",
+          "r.yaml:6: masses[1].center_mm: found 2 numbers, expected 3, x, y, z",
+          "r.yaml:7: masses[2].mass_kg: found a negative mass, expected 0 or more",
+          "r.yaml:7: masses[2].center_in: found the key 'center_in', expected center_mm or "
+          "center_m",
+          "r.yaml:8: masses[3].joint: found no such key, expected one",
+          "r.yaml:8: masses[3].mass_g: found the key 'mass_g', expected mass_kg",
+          "r.yaml:8: masses[3].center_mm: found no such key, expected center_mm or center_m",
+          "r.yaml:9: masses[4]: found '3', expected a map of `key: value`"));
+  EXPECT_THAT(FaultsIn(Lines{.more = "masses: {a: 1}"}.Text()),
+              ElementsAre("r.yaml:4: masses: found a map, expected a list"));
 }
 
 }  // namespace

@@ -151,5 +151,23 @@ TEST(RobotFileTest, NamesAMissingFile) {
   EXPECT_EQ(ReadRobotFile("no/such.yaml").status().code(), absl::StatusCode::kNotFound);
 }
 
+// Catches: masses on the wrong joint (they count from 1 in the file, from 0 in the message), units.
+TEST(RobotFileTest, ReadsMasses) {
+  const RobotFile file = ValueOf(
+      ParseRobotFile("robot: r\njoints: [{name: a, type: revolute}, {name: b, type: prismatic}]\n"
+                     "geometry: {chain: [{rz_joint: 1}, {tz_joint: 2}]}\n"
+                     "masses:\n  - {joint: b, mass_kg: 5.5, center_mm: [1, 2000, -3]}\n"
+                     "  - {joint: 1, mass_kg: 0, center_m: [0, 0, 0.25]}\n",
+                     "r.yaml"));
+  ASSERT_EQ(file.nominal.masses_size(), 2);
+  EXPECT_EQ(file.nominal.masses(0).joint(), 1);
+  EXPECT_EQ(file.nominal.masses(0).mass_kg(), 5.5);
+  EXPECT_EQ(file.nominal.masses(0).y_m(), 2);
+  EXPECT_EQ(file.nominal.masses(0).z_m(), -0.003);
+  EXPECT_EQ(file.nominal.masses(1).joint(), 0);
+  EXPECT_EQ(file.nominal.masses(1).z_m(), 0.25);
+  EXPECT_EQ(file.lines.LineOf("masses[1].mass_kg"), 6);
+}
+
 }  // namespace
 }  // namespace truepose::formats

@@ -35,6 +35,7 @@ class RandomRobot {
     SetGeometry(nominal, n);
     if (Coin()) SetJointMap(nominal, n);
     if (Coin()) AddTool(nominal);
+    while (Coin()) AddMass(nominal, n);
     return file;
   }
 
@@ -44,6 +45,15 @@ class RandomRobot {
   double Value() {
     if (Coin()) return (static_cast<int>(random_() % 2001) - 1000) / 1000.0;
     return std::uniform_real_distribution<double>(-4, 4)(random_);
+  }
+
+  void AddMass(v1::Nominal& nominal, int n) {
+    v1::LinkMass* mass = nominal.add_masses();
+    mass->set_joint(random_() % n);
+    mass->set_mass_kg(std::abs(Value()));
+    mass->set_x_m(Value());
+    mass->set_y_m(Value());
+    mass->set_z_m(Value());
   }
 
   void AddJoint(v1::Nominal& nominal, int i) {

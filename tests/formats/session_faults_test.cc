@@ -20,7 +20,7 @@ std::vector<std::string> FaultsIn(std::string_view text, std::string_view joints
 TEST(SessionFaultsTest, NamesAMissingColumn) {
   EXPECT_THAT(FaultsIn("q1_rad,q2_rad,q3_rad,q5_rad,q6_rad\n0,0,0,0,0\n", "RRRRRR"),
               ElementsAre("s.csv:1: q4_rad: found no such column, expected one beside q1_rad"));
-  EXPECT_THAT(FaultsIn("q1_rad,q2_rad,x_mm,y_mm\n0,0,1,2\n"),
+  EXPECT_THAT(FaultsIn("q1_rad,q2_rad,x_mm,y_mm,axis_x,axis_y,axis_z\n0,0,1,2,0,0,1\n"),
               ElementsAre("s.csv:1: z_mm: found no such column, expected one beside x_mm"));
   EXPECT_THAT(
       FaultsIn("q2_rad\n0\n", "PR"),
@@ -74,10 +74,10 @@ TEST(SessionFaultsTest, NamesWhatIsNoNumber) {
                           "s.csv:4: temp_C: found 'warm', expected a number"));
 }
 
-// Catches: a position of which one coordinate is 0 because it was not measured.
+// Catches: a pose of which one coordinate is 0 because it was not measured.
 TEST(SessionFaultsTest, NamesAPartlyEmptyGroup) {
   EXPECT_THAT(
-      FaultsIn("q1_rad,q2_rad,x_mm,y_mm,z_mm\n0,0,,2,\n1,,,,\n"),
+      FaultsIn("q1_rad,q2_rad,x_mm,y_mm,z_mm,qx,qy,qz,qw\n0,0,,2,,0,0,0,1\n1,,,,,,,,\n"),
       ElementsAre("s.csv:2: x_mm: found an empty cell, expected a number, as y_mm has one",
                   "s.csv:2: z_mm: found an empty cell, expected a number, as y_mm has one",
                   "s.csv:3: q2_rad: found an empty cell, expected a number, as q1_rad has one"));

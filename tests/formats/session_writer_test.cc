@@ -60,6 +60,18 @@ TEST(SessionWriterTest, RandomReadingsReadBackToTheBit) {
       r.mutable_orientation()->set_w(std::cos(half));
     }
     if (coin()) r.set_temperature_c(value(random));
+    for (int point = 1; point <= 3; ++point) {
+      if (!coin()) continue;
+      v1::MeasuredPoint* measured = r.add_points();
+      measured->set_target("p" + std::to_string(point));
+      measured->mutable_position_m()->set_z(value(random));
+      if (coin()) measured->mutable_position_sd_m()->set_x(std::abs(value(random)));
+    }
+    if (coin()) {
+      r.set_distance_m(value(random));
+      r.set_anchor("a,b");
+      r.set_beam("1");
+    }
     file.readings.push_back(r);
   }
   ExpectRoundTrip(nominal, file);

@@ -180,6 +180,7 @@ void CheckResidual(ObservationKind kind, double off, uint64_t seed) {
   reading.X_MT = {ExpRotation<double>(RandomVector(3, off, &random)) * X_MT.R,
                   X_MT.p + RandomVector(3, off, &random)};
   reading.axis_M = reading.X_MT.R.col(2);
+  reading.normal_M = RandomVector(3, 1, &random).normalized();
   reading.coordinates = {true, false, true};
   reading.anchor_M = RandomVector(3, 2, &random);
   reading.distance_m = (X_MT.p - reading.anchor_M).norm() + off;
@@ -199,7 +200,8 @@ INSTANTIATE_TEST_SUITE_P(Kinds, ResidualLaws,
                          ::testing::Values(ObservationKind::kPose, ObservationKind::kPoint,
                                            ObservationKind::kPointAxis,
                                            ObservationKind::kCoordinates,
-                                           ObservationKind::kDistance),
+                                           ObservationKind::kDistance,
+                                           ObservationKind::kPlane),
                          [](const auto& info) { return std::string(KindOf(info.param).name); });
 
 }  // namespace
