@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <memory>
 
 #include "absl/strings/str_cat.h"
@@ -115,6 +116,47 @@ TEST_F(ExportTest, UrdfServesAsRobotFile) {
   }
   // Models of the same size about the same axes differ in the second order of the errors only.
   EXPECT_NEAR(rms[0], rms[1], 0.01 * rms[0]);
+}
+
+// A calibration's robot, read back as nominal, begins where the calibration ended: would catch an
+// export that is a little off, or off by the wrong parameters, all the way through the files.
+TEST_F(ExportTest, AnExportedCalibrationIsTheNominalOfTheNext) {
+  const std::string file = folder_.Path("calibration.json");
+  const std::vector<std::string> line = {"--session", session_, "--split", "even-odd", "--json"};
+  const auto calibrate = [&](const std::string& robot, const std::string& output) {
+    std::vector<std::string> whole = {"calibrate", "--local", "--robot", robot, "--output", output};
+    whole.insert(whole.end(), line.begin(), line.end());
+    const Ran ran = RunCli(whole);
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    return OneObject(ran.out);
+  };
+  const double after = std::stod(At(calibrate(robot_, file), "sets.control.after.position_mm.rms"));
+  for (const char* format : {"urdf", "robot"}) {
+    const std::string exported = folder_.Path(format);
+    ASSERT_EQ(RunCli({"calibration", "export", file, "--local", "--robot", robot_, "--format",
+                      format, "-o", exported})
+                  .code,
+              0);
+    const auto report = calibrate(exported, folder_.Path("next.json"));
+    // Base and tool are fitted with the weights of another run, which differ in some digits.
+    EXPECT_NEAR(std::stod(At(report, "sets.control.before.position_mm.rms")), after, 1e-3 * after);
+  }
+}
+
+// Would catch a URDF file whose kinematics nobody looks at.
+TEST_F(ExportTest, ParallelSlidesAreRefusedWithTheirFile) {
+  std::string text = "<robot name=\"r\"><link name=\"a\"/><link name=\"b\"/><link name=\"c\"/>";
+  for (const auto& [joint, parent, child] :
+       {std::array{"i", "a", "b"}, std::array{"j", "b", "c"}}) {
+    absl::StrAppend(&text, "<joint name=\"", joint, "\" type=\"prismatic\"><parent link=\"", parent,
+                    "\"/><child link=\"", child,
+                    "\"/><axis xyz=\"0 0.6 0.8\"/><limit lower=\"0\" upper=\"1\" effort=\"1\" "
+                    "velocity=\"1\"/></joint>");
+  }
+  const std::string path = folder_.Write("slides.urdf", text + "</robot>");
+  const Ran ran = RunCli({"robot", "export", path, "--local", "--format", "robot"});
+  EXPECT_EQ(ran.code, 3);
+  EXPECT_THAT(ran.err, HasSubstr("slides.urdf: joints[1]: found prismatic joint j parallel to"));
 }
 
 // Would catch a tip that commands can't be told.

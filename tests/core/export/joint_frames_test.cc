@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "tests/core/testing/robots.h"
@@ -45,6 +46,29 @@ TEST(JointFrames, MoveAsTheModelDoes) {
       EXPECT_LT((a.R - b.R).norm(), 1e-13);
     }
   }
+}
+
+// A model with a tilt (Eq. 23), whose third angle is no parameter of its own: would catch axes read
+// off the chain alone instead of the model.
+TEST(JointFrames, TiltsAreInThePoses) {
+  const Robot robot = testing::Ur10();
+  Model model;
+  model.joint_map = robot.joint_map();
+  for (const char* name : {"theta_x", "theta_y"})
+    model.parameters.Add({name, ParameterGroup::kInternal, ParameterRole::kAngle, Unit::kRadian});
+  model.chain = {{Motion::kRotation, Axis::kX, 0, -1, 1},
+                 {Motion::kRotation, Axis::kY, 0, -1, 0},
+                 {Motion::kRotation, Axis::kZ, 0, -1, 2}};
+  model.tilts = {{0, 1, 2}};
+  for (const ElementaryTransform& element : robot.chain()) model.chain.push_back(element);
+  const Eigen::VectorXd lambda = Eigen::Vector2d(0.2, -0.3);
+  const auto home = HomeOf(robot, model, lambda, JointSense::kChain);
+  ASSERT_TRUE(home.ok());
+  EXPECT_LT((home->axes[0].u - Eigen::Vector3d(0.2, -0.3, std::sqrt(1 - 0.13))).norm(), 1e-15);
+  const std::vector<Pose> between = PosesBetween(FramesAlong(*home), home->X_BF);
+  Random random(3);
+  const Eigen::VectorXd q = RandomVector(6, 3, &random);
+  EXPECT_LT((Product(between, *home, q).p - Forward(model, q, lambda).p).norm(), 1e-14);
 }
 
 // Would catch origins that run away along nearly parallel axes, as those of common normals do.
