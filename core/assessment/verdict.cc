@@ -121,6 +121,17 @@ void JudgeVolume(double uncertainty_measured_m, double uncertainty_elsewhere_m,
       1e3 * uncertainty_measured_m, 1e3 * uncertainty_elsewhere_m, 1e3 * unexplained_m));
 }
 
+void JudgeSelection(const std::vector<SelectionStep>& path, Verdict* verdict) {
+  if (path.empty()) return;
+  if (verdict->decision == Decision::kApply) verdict->decision = Decision::kApplyWithinVolume;
+  const auto taken = std::count_if(path.begin(), path.end(), [](const SelectionStep& step) {
+    return step.taken && !step.added.empty();
+  });
+  verdict->reasons.push_back(absl::StrCat(
+      "a selection chose ", taken,
+      " parameters beside offsets and lengths; the others stayed nominal at these poses"));
+}
+
 void JudgeChange(double p_value, bool real, Verdict* verdict) {
   if (!real) verdict->decision = Decision::kDoNotApply;
   verdict->reasons.push_back(absl::StrFormat(

@@ -95,6 +95,7 @@ Verdict JudgeResult(const CalibrationProblem& problem, const Part& part,
   JudgeVolume(ParameterUncertainty(Measured(part.problem), result.identification),
               ParameterUncertainty(Elsewhere(part.problem, *problem.robot), result.identification),
               result.identification.model_error.position_sd_m * std::sqrt(3.0), &verdict);
+  JudgeSelection(result.selection, &verdict);
   if (result.change) JudgeChange(result.change->p_value, result.change->real, &verdict);
   return verdict;
 }

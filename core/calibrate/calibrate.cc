@@ -6,9 +6,11 @@
 #include "core/base/status_macros.h"
 #include "core/calibrate/assess.h"
 #include "core/calibrate/checks.h"
+#include "core/calibrate/parameter_choice.h"
 #include "core/calibrate/scope.h"
 #include "core/calibrate/sets.h"
 #include "core/calibrate/staged_hooks.h"
+#include "core/models/build_model.h"
 
 namespace truepose {
 namespace {
@@ -24,8 +26,10 @@ struct Run {
   Eigen::VectorXd start_lambda;  // nominal, or that of the stored calibration
 };
 
-Model ModelOf(const CalibrationProblem& problem, const std::vector<EffectGroup>& effects) {
-  Model model = ModifiedIncremental(*problem.robot, ModelExtent::kInternal);
+absl::StatusOr<Model> ModelOf(const CalibrationProblem& problem, const CalibrateOptions& options,
+                              const std::vector<EffectGroup>& effects) {
+  TRUEPOSE_ASSIGN_OR_RETURN(Model model,
+                            BuildModel(options.model, *problem.robot, ModelExtent::kInternal));
   for (EffectGroup group : effects) AddEffects(*problem.robot, group, &model);
   return model;
 }
@@ -100,11 +104,31 @@ absl::Status IdentifyParameters(Run* run, double from, double to, CalibrationRes
   const Problem& part = run->part.problem;
   const IdentifiableSet generic = GenericIdentifiable(part, *run->problem.robot);
   result->generic_rank = static_cast<int>(generic.active.size());
+  result->counts = CountParameters(*run->problem.robot, part, generic);
   TRUEPOSE_ASSIGN_OR_RETURN(result->identification,
                             Identify(part, generic, result->before, run->identify,
                                      run->stages.For("identification", from, to)));
   result->candidates = Candidates(part);
   return CheckRedundancy(result->identification);
+}
+
+// Chooses among the geometric parameters and identifies those alone.
+absl::Status SelectParameters(Run* run, CalibrationResult* result) {
+  if (!run->options.select) return absl::OkStatus();
+  TRUEPOSE_ASSIGN_OR_RETURN(
+      SelectionResult selected,
+      ChooseParameters(run->part.problem, result->identification, result->before.estimate,
+                       *run->options.select, run->stages.For("selection", 0.5, 0.6)));
+  result->selection = std::move(selected.path);
+  run->identify.free = std::move(selected.active);
+  return IdentifyParameters(run, 0.6, 0.7, result);
+}
+
+// With a selection, the effects are free beside what was selected.
+void FreeEffects(const Model& model, const Problem& part, std::vector<int>* free) {
+  if (free->empty()) return;
+  for (const JointEffect& effect : model.effects)
+    free->push_back(part.FirstInternal() + effect.parameter);
 }
 
 // Chooses effects and identifies again with them; part.problem.model is &result->model throughout.
@@ -114,10 +138,14 @@ absl::Status AddChosenEffects(Run* run, CalibrationResult* result) {
                                   run->options.effect_choice);
   if (result->effects.groups.empty()) return absl::OkStatus();
   result->effect_groups = result->effects.groups;
-  result->model = ModelOf(run->problem, result->effect_groups);
+  TRUEPOSE_ASSIGN_OR_RETURN(result->model,
+                            ModelOf(run->problem, run->options, result->effect_groups));
+  std::vector<int> free = run->identify.free;
   TRUEPOSE_RETURN_IF_ERROR(Prepare(result->model, run));
+  FreeEffects(result->model, run->part.problem, &free);
+  run->identify.free = std::move(free);
   result->before.estimate.lambda.conservativeResizeLike(run->start_lambda);
-  return IdentifyParameters(run, 0.6, 0.9, result);
+  return IdentifyParameters(run, 0.7, 0.9, result);
 }
 
 }  // namespace
@@ -128,7 +156,7 @@ absl::StatusOr<CalibrationResult> Calibrate(const CalibrationProblem& problem,
   CalibrationResult result;
   result.effect_groups =
       options.effects == EffectsMode::kListed ? options.effect_groups : std::vector<EffectGroup>{};
-  result.model = ModelOf(problem, result.effect_groups);
+  TRUEPOSE_ASSIGN_OR_RETURN(result.model, ModelOf(problem, options, result.effect_groups));
   Run run{problem,
           options,
           StagedHooks(hooks),
@@ -138,7 +166,8 @@ absl::StatusOr<CalibrationResult> Calibrate(const CalibrationProblem& problem,
           {}};
   TRUEPOSE_RETURN_IF_ERROR(Prepare(result.model, &run));
   TRUEPOSE_RETURN_IF_ERROR(FindBefore(&run, &result));
-  TRUEPOSE_RETURN_IF_ERROR(IdentifyParameters(&run, 0.3, 0.6, &result));
+  TRUEPOSE_RETURN_IF_ERROR(IdentifyParameters(&run, 0.3, 0.5, &result));
+  TRUEPOSE_RETURN_IF_ERROR(SelectParameters(&run, &result));
   TRUEPOSE_RETURN_IF_ERROR(AddChosenEffects(&run, &result));
   if (options.require_complete)
     TRUEPOSE_RETURN_IF_ERROR(CheckComplete(result.identification.set, result.candidates));

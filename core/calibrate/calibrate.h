@@ -19,8 +19,10 @@
 #include "core/assessment/verdict.h"
 #include "core/calibrate/change.h"
 #include "core/calibrate/effect_choice.h"
+#include "core/conversion/counts.h"
 #include "core/identification/identify.h"
 #include "core/identification/prior.h"
+#include "core/identification/selection.h"
 
 namespace truepose {
 
@@ -42,6 +44,8 @@ struct CalibrateOptions {
   IdentifyOptions identify;
   // Dependent directions beyond those that no readings could determine are an error.
   bool require_complete = false;
+  std::string model = "modified_incremental";  // models/build_model.h
+  std::optional<SelectionOptions> select;      // of geometric parameters; none = all that show
   EffectsMode effects = EffectsMode::kNone;
   std::vector<EffectGroup> effect_groups;  // with kListed
   EffectChoiceOptions effect_choice;
@@ -69,6 +73,8 @@ struct CalibrationResult {
   ParameterSet candidates;  // of identification.set
   int generic_rank = 0;     // what readings of this sort could determine at any poses
   SetResult calibration, control, complete;
+  ParameterCounts counts;                  // by the chapter's formulas
+  std::vector<SelectionStep> selection;    // with CalibrateOptions::select
   EffectChoice effects;                    // with EffectsMode::kAuto
   std::vector<EffectGroup> effect_groups;  // of the model
   std::vector<Suspect> suspects;           // Suspect::reading indexes the problem's readings

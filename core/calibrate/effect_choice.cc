@@ -186,7 +186,7 @@ bool TakeOne(const Linearised& system, double readings_per_parameter, std::vecto
 
 }  // namespace
 
-std::vector<EffectGroup> AvailableEffects(const Problem& problem) {
+std::vector<EffectGroup> AvailableEffects(const Robot& robot, const Problem& problem) {
   std::vector<EffectGroup> groups = {EffectGroup::kGain, EffectGroup::kHarmonic1,
                                      EffectGroup::kHarmonic2};
   bool torque = true, temperature = false;
@@ -195,7 +195,7 @@ std::vector<EffectGroup> AvailableEffects(const Problem& problem) {
     temperature = temperature ||
                   reading.conditions.temperature_K != problem.readings[0].conditions.temperature_K;
   }
-  if (torque) groups.push_back(EffectGroup::kCompliance);
+  if (torque || !robot.masses().empty()) groups.push_back(EffectGroup::kCompliance);
   if (temperature) groups.push_back(EffectGroup::kTemperature);
   return groups;
 }
@@ -203,7 +203,7 @@ std::vector<EffectGroup> AvailableEffects(const Problem& problem) {
 EffectChoice ChooseEffects(const Robot& robot, const Problem& problem,
                            const Identification& geometric, const EffectChoiceOptions& options) {
   Model wide = *problem.model;
-  for (EffectGroup group : AvailableEffects(problem)) AddEffects(robot, group, &wide);
+  for (EffectGroup group : AvailableEffects(robot, problem)) AddEffects(robot, group, &wide);
   Problem with_effects = problem;
   with_effects.model = &wide;
   with_effects.prior = NoPrior(wide.parameters);
@@ -212,7 +212,7 @@ EffectChoice ChooseEffects(const Robot& robot, const Problem& problem,
   estimate.lambda.conservativeResizeLike(Eigen::VectorXd::Zero(wide.parameters.size()));
   const Linearised system(with_effects, estimate, geometric.model_error, options);
   std::vector<Candidate> left;
-  for (EffectGroup group : AvailableEffects(problem))
+  for (EffectGroup group : AvailableEffects(robot, problem))
     left.push_back({group, ColumnsOfGroup(with_effects, robot, group, *problem.model)});
   std::vector<int> columns = geometric.set.active;
   EffectChoice choice;

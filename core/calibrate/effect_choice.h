@@ -39,9 +39,9 @@ struct EffectChoice {
   std::vector<EffectStep> path;
 };
 
-// The groups that readings can carry: compliance needs torques in every reading, temperature a
-// temperature that varies.
-std::vector<EffectGroup> AvailableEffects(const Problem& problem);
+// The groups that readings can carry: compliance needs torques in every reading or the robot's
+// masses, temperature a temperature that varies.
+std::vector<EffectGroup> AvailableEffects(const Robot& robot, const Problem& problem);
 
 // @param problem calibration readings with a geometric model. @param geometric its identification.
 EffectChoice ChooseEffects(const Robot& robot, const Problem& problem,

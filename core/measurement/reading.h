@@ -44,7 +44,7 @@ struct Reading {
   Pose X_MT;  // measured; R is used by kPose only
   Eigen::Vector3d axis_M =
       Eigen::Vector3d::UnitZ();  // measured unit z axis of T, used by kPointAxis only
-  Eigen::Vector3d normal_M = Eigen::Vector3d::UnitZ();  // kPlane: of the plane through X_MT.p
+  Eigen::Vector3d normal_M = Eigen::Vector3d::UnitZ();   // kPlane: of the plane through X_MT.p
   std::array<bool, 3> coordinates = {true, true, true};  // which of x, y, z kCoordinates has
   Eigen::Vector3d anchor_M = Eigen::Vector3d::Zero();    // kDistance: measured from here
   double distance_m = 0;                                 // kDistance: the measured value

@@ -1,8 +1,9 @@
+#include "core/models/incremental_form.h"
+
 #include <numbers>
 #include <string>
 
 #include "absl/strings/str_cat.h"
-#include "core/models/incremental_form.h"
 
 namespace truepose {
 namespace {

@@ -40,6 +40,9 @@ struct Model {
   std::vector<Tilt> tilts;  // of zhuang_roth
   std::vector<JointEffect> effects;
   JointMap joint_map;  // of the robot; effects act on controller joints
+  // For compliance where torques were not measured: the nominal chain and its masses.
+  Chain nominal_chain;
+  std::vector<LinkMass> masses;
 };
 
 // X_BF(q, lambda). @param q chain joints as read. @param lambda the model's parameters.
