@@ -10,8 +10,8 @@
 //   [T z; W C  W (r + C x_lin)] -> [T+ z+; 0 *]
 // which is the filter's update in exact arithmetic. P - K C P loses symmetry and then positive
 // definiteness when a precise reading follows a vague prior (P_0 of 3 mm, readings of 0.05 mm: P
-// falls by 1e4 at once); Joseph's form keeps P positive but squares the condition; here P =
-// T^-1 T^-T is positive definite by construction, at half the digits lost.
+// falls by thousands at once); Joseph's form keeps P positive, but works at the condition of P, the
+// square of that of T. Here P = T^-1 T^-T, whatever is taken in.
 #pragma once
 
 #include <optional>
@@ -62,6 +62,12 @@ Eigen::MatrixXd InitialCovariance(const Problem& problem, const std::vector<int>
 // readings are taken in their order. A further pass begins again from the start and P_0, linearised
 // at the end of the one before: no reading counts twice, and the covariance stays honest. (Passes
 // that keep P shrink it by the root of their number.)
+//
+// How far one pass gets depends on how tight the first readings are against what the linear model
+// is off there: with places known to 0.015 mm it ends within 1 % of the minimum, with exact places
+// it may end at thrice the weighted RMS. Two passes end within 0.1 %. Their covariance is that of
+// the minimum to a few 0.1 %, but where readings know a direction no better than P_0 (UR10 series
+// D) deviations are still off by 13 %, with a third pass by 0.3 %.
 //
 // It ends
 //   converged        when the cost at the end is within 0.2 % (its root within 0.1 %) of what the

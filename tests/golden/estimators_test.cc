@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <functional>
 
 #include "core/identification/kalman.h"
 #include "core/identification/weighted_problem.h"
@@ -21,6 +20,9 @@ namespace {
 
 using testing::EstimatorCase;
 using testing::OptionsFor;
+
+// TRUEPOSE_LONG in the environment asks for more seeds than a run at every commit can afford.
+bool IsLongRun() { return std::getenv("TRUEPOSE_LONG") != nullptr; }
 
 EstimatorCase Arm5() {
   const testing::BenchProblem bench = testing::LoadBench("arm5", 81, ObservationKind::kPointAxis);
@@ -37,7 +39,7 @@ EstimatorCase Ur10SeriesD() {
                        testing::Ur10Target());
 }
 
-EstimatorCase PoseMatching() { return testing::PoseMatchingCase(1); }
+EstimatorCase MeasuringRobot() { return testing::PoseMatchingCase(1); }
 
 struct NamedCase {
   const char* name;
@@ -122,7 +124,7 @@ INSTANTIATE_TEST_SUITE_P(Cases, OneResult,
                          ::testing::Values(NamedCase{"Arm5PointAndAxis", Arm5, 25, 2},
                                            NamedCase{"Arm6Pose", Arm6, 30, 2},
                                            NamedCase{"Ur10SeriesD", Ur10SeriesD, 30, 3},
-                                           NamedCase{"PoseMatching", PoseMatching, 25, 2}),
+                                           NamedCase{"PoseMatching", MeasuringRobot, 25, 2}),
                          [](const auto& info) { return std::string(info.param.name); });
 
 // E_op is another problem, so only this is comparable: what minimises E_op has no larger E_op.
@@ -144,8 +146,8 @@ TEST(MeanPositionError, IsNoLargerThanAtTheLeastSquares) {
   }
 }
 
-// 20 pairs; with TRUEPOSE_LONG in the environment 200.
-int PairCount() { return std::getenv("TRUEPOSE_LONG") != nullptr ? 200 : 20; }
+// 20 pairs; 200 in a long run.
+int PairCount() { return IsLongRun() ? 200 : 20; }
 
 // Robots in turn; every other one has errors of the size of the noise, where a model that is larger
 // gains next to nothing.
@@ -190,6 +192,50 @@ TEST(NestedModels, TheLargerIsNeverWorse) {
           estimator == Estimator::kLevenbergMarquardt || estimator == Estimator::kLinearIteration;
       EXPECT_LE(of_larger, of_smaller * (1 + (exact ? 1e-9 : 1e-3)));
     }
+  }
+}
+
+// 10 seeds, so that no lucky one stands for the rest; with TRUEPOSE_LONG 40.
+TEST(PoseMatching, FourEstimatorsOverSeeds) {
+  const uint64_t count = IsLongRun() ? 40 : 10;
+  for (uint64_t seed = 1; seed <= count; ++seed) {
+    const EstimatorCase c = testing::PoseMatchingCase(seed);
+    SolveOptions one_pass = OptionsFor(Estimator::kKalman);
+    one_pass.kalman.passes = 1;
+    Estimate estimate;
+    const double lm = c.SolveBy({}, &estimate).final_cost;
+    const auto ratio = [&](const SolveOptions& options) {
+      return std::sqrt(c.SolveBy(options, &estimate).final_cost / lm);
+    };
+    for (Estimator estimator : testing::kEstimators)
+      EXPECT_NEAR(ratio(OptionsFor(estimator)), 1, 1e-3) << Name(estimator) << ", seed " << seed;
+    EXPECT_NEAR(ratio(one_pass), 1, 0.05) << "seed " << seed;
+  }
+}
+
+// The loop around the solver, too: the weights settle with each estimator, at the same values.
+TEST(WholeCalibration, ByEachEstimator) {
+  const testing::BenchProblem bench = testing::LoadBench("arm6", 81, ObservationKind::kPose);
+  CalibrationProblem problem;
+  problem.robot = &bench.robot;
+  problem.readings = bench.readings;
+  problem.calibrates.assign(bench.readings.size(), true);
+  problem.placements = problem.targets = {""};
+  const auto calibrate = [&](Estimator estimator) {
+    CalibrateOptions options;
+    options.identify.solve = OptionsFor(estimator);
+    auto result = Calibrate(problem, options, {});
+    EXPECT_TRUE(result.ok()) << result.status();
+    return result->identification;
+  };
+  const Identification lm = calibrate(Estimator::kLevenbergMarquardt);
+  for (Estimator estimator : testing::kEstimators) {
+    SCOPED_TRACE(Name(estimator));
+    const Identification found = calibrate(estimator);
+    EXPECT_EQ(found.summary.termination, Termination::kConverged) << found.summary.message;
+    EXPECT_EQ(found.set.active, lm.set.active);
+    EXPECT_NEAR(found.model_error.position_sd_m / lm.model_error.position_sd_m, 1, 1e-3);
+    EXPECT_NEAR(found.model_error.rotation_sd_rad / lm.model_error.rotation_sd_rad, 1, 1e-3);
   }
 }
 

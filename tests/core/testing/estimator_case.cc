@@ -1,5 +1,6 @@
 #include "tests/core/testing/estimator_case.h"
 
+#include <cmath>
 #include <cstdlib>
 #include <iostream>
 #include <utility>
@@ -54,17 +55,23 @@ std::vector<Reading> ReadingsOf(const Simulated& simulated, ObservationKind kind
 }
 
 EstimatorCase PoseMatchingCase(uint64_t seed) {
-  constexpr double kJointNoise = 1e-4;
+  constexpr double kResolution = 0.018 * kDeg;
   SimulateOptions options;
   options.poses = 81;
   options.seed = seed;
   options.length_error_sd_m = 1e-3;
   options.angle_error_sd_rad = 3e-3;
-  options.position_noise_sd_m = options.rotation_noise_sd_rad = 0;
-  options.joint_noise_sd = kJointNoise;
+  options.position_noise_sd_m = 1.5e-5;
+  options.rotation_noise_sd_rad = 8e-5;
+  options.encoder_resolution = kResolution;
   const Simulated simulated(MeasuringArm(), AnyTarget(), options);
   std::vector<Reading> readings = ReadingsOf(simulated, ObservationKind::kPointAxis);
-  for (Reading& reading : readings) reading.joint_sd = Eigen::VectorXd::Constant(5, kJointNoise);
+  for (Reading& reading : readings) {
+    reading.position_sd_m.setConstant(options.position_noise_sd_m);
+    reading.rotation_sd_rad = options.rotation_noise_sd_rad;
+    // Rounding is uniform over the resolution.
+    reading.joint_sd = Eigen::VectorXd::Constant(5, kResolution / std::sqrt(12.0));
+  }
   return EstimatorCase(MeasuringArm(), std::move(readings));
 }
 
