@@ -35,7 +35,11 @@ void Finish(const Problem& problem, Identification* result) {
   result->summary.final_cost = sum / 2;
   result->weights.clear();
   for (const Reading& reading : problem.readings) result->weights.push_back(reading.weight);
-  if (all_rows >= active) result->covariance = ParameterCovariance(system.J, result->set.active);
+  if (result->summary.covariance_approximate) {
+    result->covariance = result->summary.covariance;
+  } else if (all_rows >= active) {
+    result->covariance = ParameterCovariance(system.J, result->set.active);
+  }
 }
 
 // Whether a candidate is a base correction of a placement that is known by contact only.
