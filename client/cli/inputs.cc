@@ -44,6 +44,11 @@ absl::StatusOr<formats::RobotFile> LoadRobot(const std::string& path,
   return file;
 }
 
+absl::Status CheckNoEnds(const formats::UrdfEnds& ends) {
+  if (ends.empty()) return absl::OkStatus();
+  return UsageError("--urdf-base and --urdf-tip are for robot files, with --local");
+}
+
 absl::StatusOr<std::vector<v1::SessionInput>> LoadSessions(const std::vector<std::string>& paths,
                                                            const v1::Nominal& nominal,
                                                            const std::string& euler,
