@@ -2,8 +2,10 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
 #include "convert/digest.h"
 #include "convert/frames.h"
+#include "convert/options.h"
 #include "convert/readings.h"
 #include "convert/report.h"
 #include "convert/robot.h"
@@ -48,6 +50,19 @@ absl::StatusOr<std::optional<Pose>> NominalTool(const v1::Nominal& nominal,
   }
   TRUEPOSE_ASSIGN_OR_RETURN(const Pose X_FT, ToolByName(nominal, name, "options.nominal_tool"));
   return X_FT;
+}
+
+// Base frames of an earlier calibration, by the names of their placements.
+std::vector<std::optional<Pose>> KnownBases(const v1::PriorCalibration& prior,
+                                            const std::vector<std::string>& placements) {
+  std::vector<std::optional<Pose>> known(placements.size());
+  for (const v1::FrameEstimate& frame : prior.frames()) {
+    for (size_t i = 0; i < placements.size(); ++i) {
+      if (frame.group() == v1::BASE && frame.name() == placements[i])
+        known[i] = PoseFrom(frame.pose());
+    }
+  }
+  return known;
 }
 
 // Roles of the usable readings, from the split of all rows.
@@ -116,6 +131,8 @@ v1::Calibration MessageOf(const v1::CalibrationInput& input, const CalibrationRe
 void FillReport(const v1::CalibrationInput& input, const ReadingsProblem& readings,
                 const std::vector<std::string>& warnings, v1::CalibrationReport* report) {
   report->set_split(input.options().split());
+  report->set_estimator(input.options().estimator().empty() ? "levenberg_marquardt"
+                                                            : input.options().estimator());
   report->set_joints_used(readings.joints_used);
   for (const std::string& warning : readings.warnings) report->add_warnings(warning);
   for (const std::string& warning : warnings) report->add_warnings(warning);
@@ -130,10 +147,7 @@ absl::Status CheckInput(const v1::CalibrationInput& input) {
   return faults.ToStatus();
 }
 
-}  // namespace
-
-absl::StatusOr<v1::Calibration> RunCalibration(const v1::CalibrationInput& input,
-                                               const RunHooks& hooks) {
+absl::StatusOr<v1::Calibration> RunOnce(const v1::CalibrationInput& input, const RunHooks& hooks) {
   TRUEPOSE_RETURN_IF_ERROR(CheckInput(input));
   TRUEPOSE_ASSIGN_OR_RETURN(const Robot robot, RobotFrom(input.nominal()));
   const Sessions sessions = SessionsOf(input);
@@ -146,8 +160,9 @@ absl::StatusOr<v1::Calibration> RunCalibration(const v1::CalibrationInput& input
                             Roles(sessions, readings, input.options()));
   TRUEPOSE_ASSIGN_OR_RETURN(readings.problem.X_FT_nominal,
                             NominalTool(input.nominal(), input.options().nominal_tool()));
-  CalibrateOptions options;
-  options.require_complete = input.options().require_complete();
+  TRUEPOSE_ASSIGN_OR_RETURN(const CalibrateOptions options, CalibrateOptionsFrom(input.options()));
+  readings.problem.X_MB_known =
+      KnownBases(input.options().prior_calibration(), readings.problem.placements);
   const Hooks core_hooks = HooksFrom(hooks);
   TRUEPOSE_ASSIGN_OR_RETURN(const CalibrationResult result,
                             Calibrate(readings.problem, options, core_hooks));
@@ -156,6 +171,47 @@ absl::StatusOr<v1::Calibration> RunCalibration(const v1::CalibrationInput& input
       input.options().nominal_tool().empty() ? std::nullopt : readings.problem.X_FT_nominal);
   FillReport(input, readings, warnings, calibration.mutable_report());
   return calibration;
+}
+
+// RMS position after calibration: of the control set, where there is one.
+double JudgedRms(const v1::Calibration& calibration) {
+  const v1::Sets& sets = calibration.report().sets();
+  const v1::SetReport& set = sets.control().poses() > 0 ? sets.control() : sets.calibration();
+  return set.after().position_mm().rms();
+}
+
+// Progress of one of two runs.
+RunHooks HalfOf(const RunHooks& hooks, double from) {
+  RunHooks half = hooks;
+  if (!hooks.on_progress) return half;
+  half.on_progress = [on_progress = hooks.on_progress, from](const v1::JobProgress& progress) {
+    v1::JobProgress moved = progress;
+    moved.set_fraction(from + progress.fraction() / 2);
+    on_progress(moved);
+  };
+  return half;
+}
+
+// With measured and with commanded joints; the better one is the result and says so.
+absl::StatusOr<v1::Calibration> RunBoth(const v1::CalibrationInput& input, const RunHooks& hooks) {
+  v1::CalibrationInput one = input;
+  one.mutable_options()->set_joints("measured");
+  TRUEPOSE_ASSIGN_OR_RETURN(v1::Calibration measured, RunOnce(one, HalfOf(hooks, 0)));
+  one.mutable_options()->set_joints("commanded");
+  TRUEPOSE_ASSIGN_OR_RETURN(v1::Calibration commanded, RunOnce(one, HalfOf(hooks, 0.5)));
+  const bool measured_is_better = JudgedRms(measured) <= JudgedRms(commanded);
+  v1::Calibration best = measured_is_better ? measured : commanded;
+  best.mutable_report()->set_joints_compared(absl::StrFormat(
+      "%s joints fit better: RMS position %.3f mm with measured, %.3f mm with commanded joints",
+      measured_is_better ? "measured" : "commanded", JudgedRms(measured), JudgedRms(commanded)));
+  return best;
+}
+
+}  // namespace
+
+absl::StatusOr<v1::Calibration> RunCalibration(const v1::CalibrationInput& input,
+                                               const RunHooks& hooks) {
+  return input.options().joints() == "both" ? RunBoth(input, hooks) : RunOnce(input, hooks);
 }
 
 }  // namespace truepose::convert

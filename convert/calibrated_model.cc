@@ -1,14 +1,40 @@
 #include "convert/calibrated_model.h"
 
+#include <algorithm>
+
 #include "absl/strings/str_cat.h"
 #include "convert/frames.h"
 #include "core/base/fault.h"
+#include "core/base/status_macros.h"
+#include "core/models/build_model.h"
 
 namespace truepose::convert {
 
+namespace {
+
+// The kind of model and the effects that a report names.
+absl::StatusOr<Model> ModelOf(const Robot& robot, const v1::CalibrationReport& report) {
+  auto built = BuildModel(report.model(), robot, ModelExtent::kInternal);
+  if (!built.ok())
+    return FaultStatus("calibration.report.model", absl::StrCat("'", report.model(), "'"),
+                       "a model of this program");
+  for (const std::string& name : report.effects()) {
+    const auto group = std::find_if(AllEffectGroups().begin(), AllEffectGroups().end(),
+                                    [&](EffectGroup known) { return Name(known) == name; });
+    if (group == AllEffectGroups().end())
+      return FaultStatus("calibration.report.effects", absl::StrCat("'", name, "'"),
+                         "an effect of this program");
+    AddEffects(robot, *group, &*built);
+  }
+  return built;
+}
+
+}  // namespace
+
 absl::StatusOr<CalibratedModel> CalibratedModelFrom(const Robot& robot,
                                                     const v1::Calibration& calibration) {
-  CalibratedModel result{ModifiedIncremental(robot, ModelExtent::kInternal), {}};
+  CalibratedModel result;
+  TRUEPOSE_ASSIGN_OR_RETURN(result.model, ModelOf(robot, calibration.report()));
   const int count = result.model.parameters.size();
   result.lambda = Eigen::VectorXd::Zero(count);
   FaultList faults;

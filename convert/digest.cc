@@ -132,6 +132,10 @@ void AddPrior(const v1::PriorCalibration& prior, Lines* lines) {
   AddNumbers("prior_calibration.covariance", prior.covariance(), lines);
   lines->Add("prior_calibration.model_sd_position_mm", prior.model_sd_position_mm());
   lines->Add("prior_calibration.model_sd_rotation_deg", prior.model_sd_rotation_deg());
+  for (const v1::FrameEstimate& frame : prior.frames()) {
+    lines->Add("prior_calibration.frame", frame.name());
+    AddPose("prior_calibration.frame", frame.pose(), lines);
+  }
 }
 
 // Options that most jobs leave empty.

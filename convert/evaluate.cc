@@ -42,8 +42,9 @@ absl::StatusOr<v1::Evaluation> RunEvaluation(const v1::Nominal& nominal,
                             ReadingsFrom(nominal, robot, {&session}, observe));
   readings.problem.robot = &robot;
   if (nominal.tools_size() > 0) readings.problem.X_FT_nominal = PoseFrom(nominal.tools(0).pose());
-  TRUEPOSE_ASSIGN_OR_RETURN(const EvaluationResult result,
-                            Evaluate(readings.problem, calibrated.lambda, {}, {}));
+  TRUEPOSE_ASSIGN_OR_RETURN(
+      const EvaluationResult result,
+      Evaluate(readings.problem, calibrated.model, calibrated.lambda, {}, {}));
   v1::Evaluation evaluation = MessageOf(result, readings);
   evaluation.set_calibration(calibration.name());
   evaluation.set_session(session.session().name());

@@ -4,6 +4,7 @@
 
 #include "convert/digest.h"
 #include "convert/frames.h"
+#include "convert/report_parts.h"
 
 namespace truepose::convert {
 namespace {
@@ -28,6 +29,7 @@ v1::PoseStatistics StatisticsToProto(const std::vector<PoseError>& errors) {
 
 v1::ParameterGroup GroupToProto(ParameterGroup group) {
   if (group == ParameterGroup::kBase) return v1::BASE;
+  if (group == ParameterGroup::kInstrument) return v1::INSTRUMENT;
   return group == ParameterGroup::kTool ? v1::TOOL : v1::INTERNAL;
 }
 
@@ -51,7 +53,9 @@ NominalAndIdentified ValuesOf(const CalibrationResult& result, int candidate,
   if (frame < bases) return {0, Coordinate(estimate.X_MB[frame], index)};
   if (frame < bases + tools)
     return {Coordinate(X_FT_nominal, index), Coordinate(estimate.X_FT[frame - bases], index)};
-  return {0, estimate.lambda(candidate - kFrameParameters * (bases + tools))};
+  const int rest = candidate - kFrameParameters * (bases + tools),
+            offsets = static_cast<int>(estimate.offsets.size());
+  return {0, rest < offsets ? estimate.offsets(rest) : estimate.lambda(rest - offsets)};
 }
 
 // Variances of the values as they are shown. Corrections of a frame's rotation are turns about the
@@ -80,7 +84,7 @@ v1::ParameterReport ParametersOf(const CalibrationResult& result, const Pose& X_
   const Eigen::VectorXd variances = ShownVariances(result);
   for (size_t i = 0; i < active.size(); ++i) {
     const Parameter& parameter = result.candidates[active[i]];
-    const double scale = parameter.is_angle() ? kDegPerRad : kMmPerM;
+    const double scale = ScaleOf(parameter.unit);
     const auto [nominal, identified] = ValuesOf(result, active[i], X_FT_nominal);
     v1::ParameterValue* value = report.add_values();
     value->set_name(parameter.name);
@@ -88,7 +92,7 @@ v1::ParameterReport ParametersOf(const CalibrationResult& result, const Pose& X_
     value->set_identified(identified * scale);
     const auto k = static_cast<Eigen::Index>(i);
     if (k < variances.size()) value->set_sd(std::sqrt(variances(k)) * scale);
-    value->set_unit(parameter.is_angle() ? "deg" : "mm");
+    value->set_unit(NameOf(parameter.unit));
     value->set_group(GroupToProto(parameter.group));
   }
   report.set_identified(static_cast<int>(active.size()));
@@ -182,7 +186,6 @@ v1::CalibrationReport ReportOf(const CalibrationResult& result, const ReadingsPr
                                const std::optional<Pose>& X_FT_nominal) {
   v1::CalibrationReport report;
   report.set_model(result.model.kind);
-  report.set_estimator("levenberg_marquardt");
   report.set_convention(result.model.convention);
   *report.mutable_parameters() = ParametersOf(result, X_FT_nominal.value_or(Pose{}));
   *report.mutable_sets()->mutable_calibration() = SetReportOf(result.calibration, readings.rows);
@@ -197,6 +200,7 @@ v1::CalibrationReport ReportOf(const CalibrationResult& result, const ReadingsPr
                 result.base_fitted_on, result.tool_fitted_on)) {
     *report.add_frames() = std::move(frame);
   }
+  FillFindings(result, readings, &report);
   return report;
 }
 

@@ -2,6 +2,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
+#include "convert/options.h"
 #include "convert/run.h"
 #include "core/assessment/split.h"
 #include "core/base/fault.h"
@@ -38,11 +39,6 @@ std::vector<int> RowsBeyond(const std::vector<v1::Reading>& readings, int joint,
   return rows;
 }
 
-void CheckName(const std::string& value, const std::string& only, const std::string& field,
-               FaultList* faults) {
-  if (!value.empty() && value != only) faults->Add(field, absl::StrCat("'", value, "'"), only);
-}
-
 }  // namespace
 
 std::vector<std::string> LimitWarnings(const v1::Nominal& nominal,
@@ -70,8 +66,7 @@ std::vector<std::string> LimitWarnings(const v1::Nominal& nominal,
 absl::Status ValidateOptions(const v1::CalibrationOptions& options) {
   FaultList faults;
   faults.AddAll(ParseSplit(options.split()).status());
-  CheckName(options.model(), "modified_incremental", "options.model", &faults);
-  CheckName(options.estimator(), "levenberg_marquardt", "options.estimator", &faults);
+  faults.AddAll(CalibrateOptionsFrom(options).status());
   if (options.observe() < v1::OBSERVE_UNSPECIFIED || options.observe() > v1::POINT_AXIS) {
     faults.Add("options.observe", absl::StrCat(static_cast<int>(options.observe())),
                "POSE, POINT or POINT_AXIS");

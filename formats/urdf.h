@@ -17,6 +17,8 @@ namespace truepose::formats {
 struct UrdfEnds {
   std::string base;  // link; "" = the root
   std::string tip;   // link; "" = the only leaf below the base
+
+  bool empty() const { return base.empty() && tip.empty(); }
 };
 
 // Whether a file's text is to be read as URDF: it begins as XML does.

@@ -231,7 +231,7 @@ absl::StatusOr<RobotFile> ParseUrdf(std::string_view text, std::string_view file
 absl::StatusOr<RobotFile> ReadRobotOrUrdfFile(const std::string& path, const UrdfEnds& ends) {
   TRUEPOSE_ASSIGN_OR_RETURN(const std::string text, ReadTextFile(path, kMostBytes));
   if (LooksLikeXml(text)) return ParseUrdf(text, path, ends);
-  if (!ends.base.empty() || !ends.tip.empty())
+  if (!ends.empty())
     return FaultStatus(path, "a file that is not URDF", "URDF with --urdf-base or --urdf-tip");
   return ParseRobotFile(text, path);
 }

@@ -54,6 +54,11 @@ absl::StatusOr<v1::Fixture> LoadFixture(const std::string& path) {
   return std::move(file->fixture);
 }
 
+absl::Status CheckNoEnds(const formats::UrdfEnds& ends) {
+  if (ends.empty()) return absl::OkStatus();
+  return UsageError("--urdf-base and --urdf-tip are for robot files, with --local");
+}
+
 absl::StatusOr<std::vector<v1::SessionInput>> LoadSessions(const std::vector<std::string>& paths,
                                                            const v1::Nominal& nominal,
                                                            const std::string& euler,

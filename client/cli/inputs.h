@@ -23,6 +23,9 @@ inline constexpr char kUrdfBaseHelp[] = "Of a URDF file: the link of the base; d
 inline constexpr char kUrdfTipHelp[] =
     "Of a URDF file: the link of the flange; default: the only link without a joint below it";
 
+// A UsageError when ends were given to a command that reads no robot file.
+absl::Status CheckNoEnds(const formats::UrdfEnds& ends);
+
 // Session files for that robot, or the faults of all of them. A session's name is its path; its
 // robot is not set. What the reader of a file warns of goes to console.err.
 // @param euler "" or the convention of rx_, ry_, rz_ columns (formats/session_file.h).

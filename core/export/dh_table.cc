@@ -37,11 +37,10 @@ DhRow SkewRow(const Line& next, double sine) {
 
 DhRow ParallelRow(const Line& next) {
   const double alpha = next.u.z() > 0 ? 0 : std::numbers::pi;
-  const Eigen::Vector3d foot = next.p - next.u * (next.p.z() / next.u.z());
-  const double distance = std::hypot(foot.x(), foot.y());
+  const double distance = std::hypot(next.p.x(), next.p.y());
   if (distance < kCoincident) return {0, 0, 0, alpha};
-  const double side = foot.x() < kBackwards * distance ? -1 : 1;
-  return {std::atan2(side * foot.y(), side * foot.x()), 0, side * distance, alpha};
+  const double side = next.p.x() < kBackwards * distance ? -1 : 1;
+  return {std::atan2(side * next.p.y(), side * next.p.x()), 0, side * distance, alpha};
 }
 
 // From the frame X, whose z is an axis, to the next axis.

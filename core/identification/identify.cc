@@ -225,6 +225,7 @@ absl::StatusOr<Identification> Identify(const Problem& problem, const Identifiab
   TRUEPOSE_RETURN_IF_ERROR(SolveKept(before, options, hooks, &weighed, &result));
   MarkStructural(problem, generic, &result.set);
   Finish(weighed, &result);
+  if (options.scale_covariance) result.covariance *= result.weighted_residual_variance;
   return result;
 }
 

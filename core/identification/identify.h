@@ -40,6 +40,9 @@ struct IdentifyOptions {
   std::vector<int> free;
   // s_model of an earlier calibration in place of an estimate, for readings too few to give one.
   std::optional<ModelError> known_model_error;
+  // Multiplies the covariance by the weighted residual variance, the variance factor: for weights
+  // whose scale is not sure, as with known_model_error = 0.
+  bool scale_covariance = false;
 };
 
 // Fits base and tool alone, lambda as given: "before", and how a calibration meets a new session.

@@ -95,6 +95,15 @@ TEST_F(ExportTest, FaultsLeaveNothing) {
   EXPECT_EQ(other.code, 3);
   EXPECT_THAT(other.err, HasSubstr("--robot: found"));
   EXPECT_EQ(RunCli({"calibration", "export", truth_, "--local", "--format", "urdf"}).code, 2);
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"robot", "export", "ur10", "--format", "urdf"},
+        {"calibration", "export", "ur10#1", "--format", "urdf"},
+        {"evaluate", "--calibration", "ur10#1", "--session", kUuid},
+        {"compensate", "t.csv", "--calibration", "ur10#1"}}) {
+    std::vector<std::string> with_tip = command;
+    with_tip.insert(with_tip.end(), {"--urdf-tip", "flange"});
+    EXPECT_EQ(RunCli(with_tip).code, 2) << command[0];
+  }
   EXPECT_EQ(folder_.FileCount(), before);
 }
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 
 #include "absl/strings/numbers.h"
@@ -287,6 +288,56 @@ TEST(Export, UrCalibrationStaysNearNominal) {
     EXPECT_LT(std::hypot(a.x - b.x, a.y - b.y, a.z - b.z), 0.01);
     EXPECT_LT(std::hypot(a.roll - b.roll, a.pitch - b.pitch, a.yaw - b.yaw), 0.01);
   }
+}
+
+// The UR10 as ur_description builds it: base_link, turned by pi to base_link_inertia; origins
+// rounded to 1e-9; a flange and a tool0 that turn there and back.
+std::string UrDescriptionUrdf() {
+  struct Origin {
+    const char *type, *parent, *child, *xyz, *rpy;
+  };
+  std::string links, joints;
+  for (const Origin& o : std::initializer_list<Origin>{
+           {"fixed", "base_link", "base_link_inertia", "0 0 0", "0 0 3.141592653589793"},
+           {"fixed", "base_link", "base", "0 0 0", "0 0 3.141592653589793"},
+           {"continuous", "base_link_inertia", "shoulder", "0 0 0.1273", "0 0 0"},
+           {"continuous", "shoulder", "upper_arm", "0 0 0", "1.570796327 0 0"},
+           {"continuous", "upper_arm", "forearm", "-0.612 0 0", "0 0 0"},
+           {"continuous", "forearm", "wrist_1", "-0.5723 0 0.163941", "0 0 0"},
+           {"continuous", "wrist_1", "wrist_2", "0 -0.1157 0", "1.570796327 0 0"},
+           {"continuous", "wrist_2", "wrist_3", "0 0.0922 0",
+            "1.570796326589793 3.141592653589793 3.141592653589793"},
+           {"fixed", "wrist_3", "flange", "0 0 0", "0 -1.5707963267948966 -1.5707963267948966"},
+           {"fixed", "flange", "tool0", "0 0 0", "1.5707963267948966 0 1.5707963267948966"}}) {
+    links += std::string("<link name=\"") + o.child + "\"/>";
+    joints += std::string("<joint name=\"to_") + o.child + "\" type=\"" + o.type +
+              "\"><parent link=\"" + o.parent + "\"/><child link=\"" + o.child +
+              "\"/><origin xyz=\"" + o.xyz + "\" rpy=\"" + o.rpy +
+              "\"/><axis xyz=\"0 0 1\"/></joint>";
+  }
+  return "<robot name=\"ur10\"><link name=\"base_link\"/>" + links + joints + "</robot>";
+}
+
+// What docs/formats.md says of UR's frames: B is base_link_inertia, F is tool0, and base_link is
+// turned. Would catch a calibration file that is off by half a turn on the robot.
+TEST(Export, UrDescriptionsFramesAreOurs) {
+  const auto inertia =
+      formats::ParseUrdf(UrDescriptionUrdf(), "ur.urdf", {"base_link_inertia", "tool0"});
+  ASSERT_TRUE(inertia.ok()) << inertia.status();
+  const Robot ur10 = *RobotFrom(Example("ur10.yaml")), read = *RobotFrom(inertia->nominal);
+  Random random(13);
+  for (int i = 0; i < 20; ++i) {
+    Eigen::VectorXd q(6);
+    for (double& value : q) value = random.Uniform(-3, 3);
+    const Pose a = NominalForward(read, q), b = NominalForward(ur10, q);
+    // Its angles are rounded to 1e-9 rad, a length of 1.2 m behind them.
+    EXPECT_LT((a.p - b.p).norm(), 3e-9);
+    EXPECT_LT((a.R - b.R).norm(), 3e-9);
+  }
+  EXPECT_TRUE(ExportUrCalibration(inertia->nominal, nullptr).ok());
+  const auto turned = formats::ParseUrdf(UrDescriptionUrdf(), "ur.urdf", {"base_link", "tool0"});
+  ASSERT_TRUE(turned.ok()) << turned.status();
+  EXPECT_FALSE(ExportUrCalibration(turned->nominal, nullptr).ok());
 }
 
 TEST(Export, UrCalibrationIsForUrRobotsOnly) {

@@ -29,6 +29,7 @@ absl::Status ExportLocally(const Invocation& invocation, const Options& options)
 }
 
 absl::Status ExportFromServer(const Invocation& invocation, const Options& options) {
+  TRUEPOSE_RETURN_IF_ERROR(CheckNoEnds(options.ends));
   if (!options.robot.empty())
     return UsageError("--robot is for --local; on a server the calibration knows its robot");
   TRUEPOSE_ASSIGN_OR_RETURN(const std::string name, CalibrationName(options.calibration));

@@ -76,6 +76,7 @@ absl::Status EvaluateLocally(const Invocation& invocation, const Options& option
 
 absl::Status EvaluateOnServer(const Invocation& invocation, const Options& options,
                               v1::Observe observe) {
+  TRUEPOSE_RETURN_IF_ERROR(CheckNoEnds(options.ends));
   if (!options.robot.empty() || !options.euler.empty()) {
     return UsageError(
         "--robot and --euler are for --local; on a server the calibration and the session know "

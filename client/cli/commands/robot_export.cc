@@ -25,6 +25,7 @@ absl::Status ExportLocally(const Invocation& invocation, const Options& options)
 }
 
 absl::Status ExportFromServer(const Invocation& invocation, const Options& options) {
+  TRUEPOSE_RETURN_IF_ERROR(CheckNoEnds(options.ends));
   v1::GetRobotRequest request;
   request.set_name(RobotName(options.robot));
   return WithServer(invocation, kRobotHint, [&](const client::Client& client) -> absl::Status {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 
@@ -79,6 +80,18 @@ TEST(JointFrames, StayNearTheRobot) {
   const auto home = HomeOf(robot, model, RandomVector(model.parameters.size(), 1e-3, &random),
                            JointSense::kChain);
   for (const Pose& X : FramesAlong(*home)) EXPECT_LT(X.p.norm(), 1.3);
+}
+
+// Would catch an x axis made of rounding where the joint's axis is along the x before.
+TEST(JointFrames, AnAxisAlongTheXBefore) {
+  for (const double off : {0.0, 1e-12, 1e-3}) {
+    const Eigen::Vector3d u = Eigen::Vector3d(-1, off, 0).normalized();
+    const Pose X = FrameOn({JointType::kRevolute, u, {0, 0, 2}}, {});
+    EXPECT_LT((X.R.transpose() * X.R - Eigen::Matrix3d::Identity()).norm(), 1e-15);
+    EXPECT_LT((X.R.col(2) - u).norm(), 1e-15);
+    EXPECT_NEAR(X.R.determinant(), 1, 1e-15);
+    EXPECT_LT((X.p - Eigen::Vector3d(0, 0, 2)).norm(), 1e-15);
+  }
 }
 
 // URDF's fixed-axis angles, also where pitch is a quarter turn: a division or an asin there would
