@@ -79,6 +79,9 @@ struct Simulation {
 absl::StatusOr<Simulation> RunSimulation(const v1::Nominal& nominal,
                                          const SimulationOptions& options);
 
+// What a calibration knew of the internal parameters, as the prior of another one.
+v1::PriorCalibration PriorOf(const v1::Calibration& calibration);
+
 // The measuring robot of the chapter's Sec. 11 (Eq. 37 as corrected in docs/models.md).
 v1::Nominal MeasuringRobot();
 

@@ -9,6 +9,7 @@
 #include "absl/strings/strip.h"
 #include "absl/time/time.h"
 #include "client/cli/histogram.h"
+#include "client/cli/report_findings.h"
 #include "client/cli/table.h"
 
 namespace truepose::cli {
@@ -64,6 +65,8 @@ std::string GroupName(v1::ParameterGroup group) {
       return "base";
     case v1::TOOL:
       return "tool";
+    case v1::INSTRUMENT:
+      return "instrument";
     default:
       return "";
   }
@@ -156,7 +159,7 @@ std::string ParametersTable(const v1::ParameterReport& parameters) {
                {"unit", Align::kLeft}});
   // The robot's own parameters first; the report has them in the order of the covariance.
   for (const v1::ParameterGroup group :
-       {v1::INTERNAL, v1::TOOL, v1::BASE, v1::PARAMETER_GROUP_UNSPECIFIED}) {
+       {v1::INTERNAL, v1::TOOL, v1::BASE, v1::INSTRUMENT, v1::PARAMETER_GROUP_UNSPECIFIED}) {
     for (const v1::ParameterValue& value : parameters.values()) {
       if (value.group() == group) AddParameter(value, &table);
     }
@@ -225,14 +228,17 @@ std::string CalibrationText(const v1::Calibration& calibration, const Console& c
   AppendSection("Tool in the frame of the flange, base in that of the instrument",
                 FramesTable(report), &text);
   AppendSection("Parameters that stay at nominal", RedundanciesText(report), &text);
+  absl::StrAppend(&text, FindingsText(report));
   AppendSection("Residuals", SetsTable(report.sets()), &text);
+  AppendSection("Control rows against the mean of their own place in the fixture",
+                PlacesText(report), &text);
   if (!calibration.residuals().empty()) {
     absl::StrAppend(&text, "\n", ResidualHistogram(calibration, console.utf8));
   }
   for (const std::string& warning : report.warnings()) {
     absl::StrAppend(&text, "\n", Paint(console, Colour::kYellow, "Warning"), ": ", warning, "\n");
   }
-  return absl::StrCat(text, "\n", VerdictText(report, console));
+  return absl::StrCat(text, "\n", AccuracyText(report), VerdictText(report, console));
 }
 
 std::string TimeText(const google::protobuf::Timestamp& time) {

@@ -26,12 +26,20 @@ constexpr char kFooter[] =
   random:SEED[:FRACTION]    FRACTION (0.5) of the rows, drawn with this seed
   column:NAME=VALUE         all but the rows with this value
 
-Examples:
+)";
+
+constexpr char kExamples[] =
+    R"(Examples:
   truepose calibrate --robot ur10 --session 5f0c2c1e-8a53-4f0e-9a51-6f1f0f1f7a11 --split even-odd
   truepose calibrate --local --robot ur10.yaml --session series_C.csv --split even-odd
   truepose calibrate --local --robot ur10.yaml --session a.csv --session b.csv --split spaced:100 \
     --output ur10.calibration.json
-  truepose calibrate --local --robot arm.yaml --session points.csv --observe point --json)";
+  truepose calibrate --local --robot arm.yaml --session points.csv --observe point --json
+  truepose calibrate --local --robot ur10.yaml --session series_D.csv --split even-odd --effects auto
+  truepose calibrate --local --robot panda.yaml --session panda_3.csv --fixture sockets.yaml \
+    --feature-column hole --split even-odd
+  truepose calibrate --local --robot ur10.yaml --session after_repair.csv --calibrate dq3 \
+    --prior ur10.calibration.json)";
 
 absl::Status CheckUsage(const CalibrateOptions& options) {
   if (options.local && options.no_wait)
@@ -50,6 +58,7 @@ absl::Status Calibrate(const Invocation& invocation, CalibrateOptions options) {
   TRUEPOSE_RETURN_IF_ERROR(CheckUsage(options));
   TRUEPOSE_ASSIGN_OR_RETURN(const v1::Observe observe, ParseObserve(options.observe));
   options.calibration.set_observe(observe);
+  if (!options.local) TRUEPOSE_RETURN_IF_ERROR(CheckNoEnds(options.ends));
   return options.local ? CalibrateLocally(invocation, options)
                        : CalibrateOnServer(invocation, options);
 }
@@ -80,6 +89,7 @@ absl::Status AsTyped(const absl::Status& status, const CalibrateOptions& options
                        {"options.group_column", "--group"},
                        {"options.nominal_tool", "--tool"},
                        {"options.observe", "--observe"}};
+  for (auto& name : IdentificationNames()) renaming.push_back(std::move(name));
   for (size_t i = 0; i < options.sessions.size(); ++i) {
     const std::string field = absl::StrCat("sessions[", i, "]");
     renaming.push_back({field + ".", options.sessions[i] + ": "});
@@ -121,8 +131,8 @@ absl::Status Deliver(const Invocation& invocation, const v1::Calibration& calibr
 void AddCalibrate(const Command& root) {
   const auto parsed = std::make_shared<Parsed>();
   CalibrateOptions& options = parsed->options;
-  root.Add("calibrate", "Identify a robot's parameters from sessions")
-      .Option("--local", "", &options.local, "Compute here, from files, without a server")
+  const Command command = root.Add("calibrate", "Identify a robot's parameters from sessions");
+  command.Option("--local", "", &options.local, "Compute here, from files, without a server")
       .Required("--robot", "NAME|FILE", &options.robot,
                 "Robot on the server; with --local a robot file")
       .Required("--session", "UUID|FILE", &options.sessions,
@@ -138,10 +148,13 @@ void AddCalibrate(const Command& root) {
       .Option("--strict-limits", "", &parsed->strict_limits, "A joint beyond its limit is an error")
       .Option("--euler", "CONVENTION", &options.euler,
               "With --local: read rx_,ry_,rz_ columns, such as xyz-intrinsic")
+      .Option("--urdf-base", "LINK", &options.ends.base, kUrdfBaseHelp)
+      .Option("--urdf-tip", "LINK", &options.ends.tip, kUrdfTipHelp)
       .Option("--output", "FILE", &options.output,
               "Also write the calibration as JSON, for --local commands")
-      .Option("--no-wait", "", &options.no_wait, "Print the job and do not wait for it")
-      .Footer(kFooter)
+      .Option("--no-wait", "", &options.no_wait, "Print the job and do not wait for it");
+  AddIdentificationOptions(command, &options.identification);
+  command.Footer(absl::StrCat(kFooter, kIdentificationFooter, kExamples))
       .Run(Command::Reach::kRemote, [parsed](const Invocation& invocation) {
         return Calibrate(invocation, parsed->Complete());
       });

@@ -7,7 +7,9 @@
 
 #include "absl/status/status.h"
 #include "client/cli/command_line.h"
+#include "client/cli/commands/identification_options.h"
 #include "client/cli/output_file.h"
+#include "formats/urdf.h"
 #include "truepose/v1/calibration.pb.h"
 
 namespace truepose::cli {
@@ -19,8 +21,10 @@ struct CalibrateOptions {
   std::string euler;                  // only with --local: a session on a server is read already
   std::string observe;
   std::string output;
-  bool no_wait = false;  // only remote
-  v1::CalibrationOptions calibration;
+  bool no_wait = false;    // only remote
+  formats::UrdfEnds ends;  // only with --local
+  IdentificationOptions identification;
+  v1::CalibrationOptions calibration;  // those of `identification` are written by each way
 };
 
 absl::Status CalibrateLocally(const Invocation& invocation, const CalibrateOptions& options);

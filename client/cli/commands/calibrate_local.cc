@@ -15,18 +15,20 @@ namespace truepose::cli {
 namespace {
 
 // The faults of the robot file and of the options come together.
-absl::StatusOr<formats::RobotFile> LoadRobotAndCheckOptions(const CalibrateOptions& options) {
+absl::StatusOr<formats::RobotFile> LoadRobotAndOptions(CalibrateOptions* options) {
   FaultList faults;
-  absl::StatusOr<formats::RobotFile> robot = LoadRobot(options.robot);
+  absl::StatusOr<formats::RobotFile> robot = LoadRobot(options->robot, options->ends);
   faults.AddAll(robot.status());
-  faults.AddAll(AsTyped(convert::ValidateOptions(options.calibration), options));
+  faults.AddAll(WriteIdentificationOptions(options->identification, {}, &options->calibration));
+  if (faults.empty())
+    faults.AddAll(AsTyped(convert::ValidateOptions(options->calibration), *options));
   if (!faults.empty()) return faults.ToStatus();
   return robot;
 }
 
 absl::StatusOr<v1::CalibrationInput> LoadInput(const Invocation& invocation,
-                                               const CalibrateOptions& options) {
-  TRUEPOSE_ASSIGN_OR_RETURN(const formats::RobotFile robot, LoadRobotAndCheckOptions(options));
+                                               CalibrateOptions options) {
+  TRUEPOSE_ASSIGN_OR_RETURN(const formats::RobotFile robot, LoadRobotAndOptions(&options));
   TRUEPOSE_ASSIGN_OR_RETURN(
       std::vector<v1::SessionInput> sessions,
       LoadSessions(options.sessions, robot.nominal, options.euler, invocation.console));

@@ -37,6 +37,14 @@ absl::StatusOr<v1::CalibrationJob> CreateJob(const client::Client& client,
   request.set_robot(RobotName(options.robot));
   for (const std::string& session : options.sessions) request.add_sessions(SessionName(session));
   *request.mutable_options() = options.calibration;
+  TRUEPOSE_RETURN_IF_ERROR(WriteIdentificationOptions(
+      options.identification,
+      [&](const std::string& typed) -> absl::StatusOr<v1::Calibration> {
+        v1::GetCalibrationRequest get;
+        TRUEPOSE_ASSIGN_OR_RETURN(*get.mutable_name(), CalibrationName(typed));
+        return client.GetCalibration(get);
+      },
+      request.mutable_options()));
   return client.CreateCalibrationJob(request);
 }
 

@@ -1,0 +1,19 @@
+// What a report says beside parameters and residuals: counts, choices, suspects, correlations.
+#pragma once
+
+#include <string>
+
+#include "truepose/v1/calibration.pb.h"
+
+namespace truepose::cli {
+
+// Sections, each with a blank line before it; empty ones are left out.
+std::string FindingsText(const v1::CalibrationReport& report);
+
+// Contact readings against their own places; "" without a fixture.
+std::string PlacesText(const v1::CalibrationReport& report);
+
+// Lines on predicted accuracy, the test of a change and the better joints; "" where there are none.
+std::string AccuracyText(const v1::CalibrationReport& report);
+
+}  // namespace truepose::cli
