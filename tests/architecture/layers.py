@@ -14,6 +14,7 @@ _CORE_ORDER = (
     ("core/identification", "core/compensation"),
     ("core/assessment", "core/planning"),  # docs/decisions/0004
     ("core/calibrate", "core/simulation"),
+    ("core/reproduce",),
 )
 
 
