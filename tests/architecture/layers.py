@@ -12,7 +12,7 @@ _CORE_ORDER = (
     ("core/parameters",),
     ("core/models", "core/measurement"),
     ("core/identification", "core/compensation"),
-    ("core/assessment", "core/planning"),  # docs/decisions/0004
+    ("core/assessment", "core/planning", "core/conversion"),  # docs/decisions/0004
     ("core/calibrate", "core/simulation"),
     ("core/reproduce",),
 )
