@@ -221,6 +221,12 @@ SolveOptions By(Estimator estimator) {
   return options;
 }
 
+SolveOptions Kalman(int passes) {
+  SolveOptions options = By(Estimator::kKalman);
+  options.kalman.passes = passes;
+  return options;
+}
+
 }  // namespace
 
 const char* Name(DimeSet set) {
@@ -237,7 +243,11 @@ const char* Name(DimeSet set) {
 
 const std::vector<DimeEstimator>& DimeEstimators() {
   static const auto* const kEstimators =
-      new std::vector<DimeEstimator>{{"levenberg_marquardt", By(Estimator::kLevenbergMarquardt)}};
+      new std::vector<DimeEstimator>{{"levenberg_marquardt", By(Estimator::kLevenbergMarquardt)},
+                                     {"linear_iteration", By(Estimator::kLinearIteration)},
+                                     {"kalman, one pass", Kalman(1)},
+                                     {"kalman, two passes", Kalman(2)},
+                                     {"simplex", By(Estimator::kSimplex)}};
   return *kEstimators;
 }
 

@@ -53,16 +53,18 @@ TEST(Section11, StandsWhereTheChapterStands) {
   }
 }
 
-// All 25 parameters. Would catch a wrong
-// Jacobian column, wrong weights, an estimator that stops early.
+// All 25 parameters by every estimator. Would catch a wrong Jacobian column, wrong weights, an
+// estimator that stops early.
 TEST(Section11, TwentyFiveParametersReachTheNoise) {
   for (const Section11Seed& seed : Result().seeds) {
-    const auto fits = Fits(seed, DimeSet::kComplete, "levenberg_marquardt");
-    for (size_t i = 0; i < fits.size(); ++i) {
-      const DimeFit& fit = *fits[i];
-      EXPECT_LE(fit.control.mean, 0.11 * kMm) << Where(seed, fit.calibration_poses);
-      EXPECT_LE(fit.control.mean, 1.25 * seed.splits[i].true_control.mean)
-          << Where(seed, fit.calibration_poses);
+    for (const DimeEstimator& estimator : DimeEstimators()) {
+      const auto fits = Fits(seed, DimeSet::kComplete, estimator.name);
+      for (size_t i = 0; i < fits.size(); ++i) {
+        EXPECT_LE(fits[i]->control.mean, 0.11 * kMm)
+            << estimator.name << ", " << Where(seed, fits[i]->calibration_poses);
+        EXPECT_LE(fits[i]->control.mean, 1.25 * seed.splits[i].true_control.mean)
+            << estimator.name << ", " << Where(seed, fits[i]->calibration_poses);
+      }
     }
   }
 }
@@ -90,16 +92,71 @@ TEST(Section11, SelectionReachesNearlyTheSame) {
   EXPECT_LE(sum / count, 0.11 * kMm);
 }
 
-// Of nested sets the larger one's weighted cost is never larger; the solver's end is at 1e-9. Would
-// catch estimators that have not converged: the chapter's own amoeba breaks this.
+// Estimators that minimise the same cost, and how far above Levenberg-Marquardt's they may end: one
+// pass of the filter linearises at every reading's own estimate (0.0002 to 2.6 % in E2, 3.4 % on
+// the worst of these); the simplex stops at 1e-3.
+struct Bound {
+  std::string estimator;
+  double cost_above;
+};
+const std::vector<Bound>& Bounds() {
+  static const auto* const kBounds = new std::vector<Bound>{{"levenberg_marquardt", 0},
+                                                            {"linear_iteration", 1e-9},
+                                                            {"kalman, two passes", 1e-3},
+                                                            {"simplex", 1e-3},
+                                                            {"kalman, one pass", 0.05}};
+  return *kBounds;
+}
+
+// Would catch an estimator with weights or a problem of its own, one that stops early, and P_0 that
+// pulls to nominal: the chapter's filter ended at 5.8 mm.
+TEST(Section11, EveryEstimatorEndsInTheSameMinimum) {
+  for (const Section11Seed& seed : Result().seeds) {
+    for (DimeSet set : {DimeSet::kComplete, DimeSet::kReduced, DimeSet::kSelected}) {
+      const auto best = Fits(seed, set, "levenberg_marquardt");
+      for (const Bound& bound : Bounds()) {
+        const auto fits = Fits(seed, set, bound.estimator);
+        for (size_t i = 0; i < fits.size(); ++i) {
+          EXPECT_LE(fits[i]->cost, (1 + bound.cost_above) * best[i]->cost)
+              << bound.estimator << ", " << Name(set) << ", "
+              << Where(seed, fits[i]->calibration_poses);
+        }
+      }
+    }
+  }
+}
+
+// On the 14 alone the model error is 100 times the noise: the errors in mm agree to 1 % all the
+// same.
+TEST(Section11, OnFourteenTheEstimatorsAgreeInMillimetres) {
+  for (const Section11Seed& seed : Result().seeds) {
+    const auto best = Fits(seed, DimeSet::kReduced, "levenberg_marquardt");
+    for (const char* estimator : {"simplex", "kalman, two passes"}) {
+      const auto fits = Fits(seed, DimeSet::kReduced, estimator);
+      for (size_t i = 0; i < fits.size(); ++i) {
+        EXPECT_NEAR(fits[i]->control.mean, best[i]->control.mean, 0.01 * best[i]->control.mean)
+            << estimator << ", " << Where(seed, fits[i]->calibration_poses);
+        EXPECT_NEAR(fits[i]->calibration.mean, best[i]->calibration.mean,
+                    0.01 * best[i]->calibration.mean)
+            << estimator << ", " << Where(seed, fits[i]->calibration_poses);
+      }
+    }
+  }
+}
+
+// Of nested sets the larger one's weighted cost is never larger, to where each estimator ends. The
+// chapter's amoeba breaks this: 0.316 mm with 25 parameters, 0.294 with 14.
 TEST(Section11, CostOfTheLargerSetIsNeverLarger) {
   for (const Section11Seed& seed : Result().seeds) {
-    const auto all = Fits(seed, DimeSet::kComplete, "levenberg_marquardt"),
-               reduced = Fits(seed, DimeSet::kReduced, "levenberg_marquardt"),
-               selected = Fits(seed, DimeSet::kSelected, "levenberg_marquardt");
-    for (size_t i = 0; i < all.size(); ++i) {
-      EXPECT_LE(all[i]->cost, (1 + 1e-9) * selected[i]->cost) << seed.seed;
-      EXPECT_LE(selected[i]->cost, (1 + 1e-9) * reduced[i]->cost) << seed.seed;
+    for (const Bound& bound : Bounds()) {
+      const auto all = Fits(seed, DimeSet::kComplete, bound.estimator),
+                 reduced = Fits(seed, DimeSet::kReduced, bound.estimator),
+                 selected = Fits(seed, DimeSet::kSelected, bound.estimator);
+      const double most = 1 + std::max(bound.cost_above, 1e-9);
+      for (size_t i = 0; i < all.size(); ++i) {
+        EXPECT_LE(all[i]->cost, most * selected[i]->cost) << bound.estimator << seed.seed;
+        EXPECT_LE(selected[i]->cost, most * reduced[i]->cost) << bound.estimator << seed.seed;
+      }
     }
   }
 }
