@@ -79,22 +79,24 @@ class Selector {
 
   absl::StatusOr<SelectionResult> Select(const Estimate& start, const std::vector<int>& base) {
     TRUEPOSE_RETURN_IF_ERROR(Prepare(start, base));
-    Fitted current = Fit(base, thorough_);
-    Record(current, true);
+    Fitted current = Fit(base, thorough_), chosen = current;
+    Record(current);
+    size_t steps_taken = 1;
     for (;;) {
       std::optional<Fitted> best = BestOf(current);
       if (hooks_.Cancelled()) return absl::CancelledError("cancelled");
       if (!best) break;
-      const bool taken = IsWorthIt(current, *best);
-      if (taken) *best = Refit(*best);
-      Record(*best, taken);
-      if (!taken) break;
+      const bool worth_it = IsWorthIt(current, *best), goes_on = worth_it || GoesOn(current, *best);
+      if (goes_on) *best = Refit(*best);
+      Record(*best);
+      if (!goes_on) break;
       left_[best->candidate] = false;
       current = *std::move(best);
-      result_.added.push_back(candidates_[current.candidate].label);
+      if (!worth_it) continue;
+      chosen = current;
+      steps_taken = result_.path.size();
     }
-    result_.active = current.active;
-    result_.estimate = current.estimate;
+    Finish(chosen, steps_taken);
     return result_;
   }
 
@@ -134,7 +136,8 @@ class Selector {
     const double n = rows_, k = static_cast<double>(fitted->active.size());
     switch (options_.criterion) {
       case SelectionCriterion::kForward:
-        fitted->criterion = PositionRms(problem_, fitted->estimate);
+        fitted->criterion = options_.position_only ? PositionRms(problem_, fitted->estimate)
+                                                   : std::sqrt(2 * fitted->cost / n);
         break;
       case SelectionCriterion::kBic:
         fitted->criterion = n * std::log(2 * fitted->cost / n) + k * std::log(n);
@@ -164,6 +167,13 @@ class Selector {
     const double n = static_cast<double>(falls.size());
     const double sd = std::sqrt((falls - falls.mean()).square().sum() * n / (n - 1));
     return falls.sum() > options_.least_fall_sd * sd;
+  }
+
+  // Whether the path is worth following though the step by itself is not: where a few readings
+  // carry most of the sum of squares a real fall is uncertain until the rest has been explained.
+  bool GoesOn(const Fitted& current, const Fitted& next) const {
+    return options_.criterion == SelectionCriterion::kCrossValidation &&
+           next.criterion < current.criterion;
   }
 
   std::optional<Fitted> BestOf(const Fitted& current) {
@@ -201,16 +211,25 @@ class Selector {
     return added;
   }
 
-  void Record(const Fitted& fitted, bool taken) {
+  void Record(const Fitted& fitted) {
     result_.path.push_back({fitted.candidate < 0 ? "" : candidates_[fitted.candidate].label,
                             static_cast<int>(fitted.active.size()),
-                            std::sqrt(2 * fitted.cost / rows_), fitted.criterion, taken});
+                            std::sqrt(2 * fitted.cost / rows_), fitted.criterion, false});
+  }
+
+  void Finish(const Fitted& chosen, size_t steps_taken) {
+    for (size_t i = 0; i < steps_taken; ++i) {
+      result_.path[i].taken = true;
+      if (i > 0) result_.added.push_back(result_.path[i].added);
+    }
+    result_.active = chosen.active;
+    result_.estimate = chosen.estimate;
   }
 
   void Report(size_t candidate, double cost) {
     const double rounds = static_cast<double>(candidates_.size());
     const double done =
-        static_cast<double>(result_.added.size()) + static_cast<double>(candidate + 1) / rounds;
+        static_cast<double>(result_.path.size() - 1) + static_cast<double>(candidate + 1) / rounds;
     hooks_.Report({"selection", std::min(done / rounds, 1.0), ++trials_, cost});
   }
 

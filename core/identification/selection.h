@@ -3,14 +3,17 @@
 // taken when it is worth it, and so on until none is.
 //
 // Criteria, all of them of the calibration set, which is `problem`; a control set never chooses:
-//   kForward          E* = RMS position error; taken when E* falls by at least 5 %: the chapter's
-//                     rule. Weighs neither the size of the set nor the number of parameters.
+//   kForward          E* = weighted RMS of the residuals; taken when E* falls by at least 5 %: the
+//                     chapter's rule. Its E* is the residual that its fits minimise, so it is the
+//                     weighted one here: that of the positions alone, in mm, need not fall when a
+//                     parameter is added to a correct fit (position_only has it all the same).
 //   kBic              n ln(chi2 / n) + k ln n, chi2 the weighted sum of squares of n rows and k
 //                     parameters: the profile likelihood, in which a common scale of all weights is
 //                     free (weights found with the base set include what it can't explain). Taken
 //                     when it falls.
 //   kCrossValidation  weighted RMS of the rows of each fold, predicted by the fit to the others.
-//                     Taken when it falls by more than its own uncertainty, see least_fall_sd.
+//                     Parameters are added while it falls at all; those up to the last one whose
+//                     fall exceeds its own uncertainty (least_fall_sd) are taken.
 // Every refit starts at the fit of the base set and so has its weights (see Solve): the weighted
 // cost never grows along a path. Which other parameters a candidate can't be told from is judged at
 // lambda = 0, where redundancies are exact (identifiability.h).
@@ -41,6 +44,7 @@ struct SelectionCandidate {
 struct SelectionOptions {
   SelectionCriterion criterion = SelectionCriterion::kForward;
   double least_improvement = 0.05;  // kForward: share of E*
+  bool position_only = false;       // kForward: E* is the RMS position error in m, not weighted
   int folds = 10;                   // kCrossValidation, from here on
   uint64_t seed = 1;                // of the folds
   std::vector<int> units;  // one a reading, equal ones are never separated; empty: none are
@@ -55,7 +59,7 @@ struct SelectionStep {
   std::string added;        // label, "" is the base set
   int parameters = 0;       // with what was added
   double weighted_rms = 0;  // sqrt(2 cost / rows), the prior's among them
-  double criterion = 0;     // E* in m, BIC, or the cross-validated weighted RMS
+  double criterion = 0;     // E*, BIC, or the cross-validated weighted RMS
   bool taken = false;
 };
 
@@ -63,7 +67,7 @@ struct SelectionResult {
   std::vector<int> active;          // base and taken ones, ascending
   std::vector<std::string> added;   // labels in the order taken
   Estimate estimate;                // fitted over `active`
-  std::vector<SelectionStep> path;  // the base set, each one taken, and the best that was refused
+  std::vector<SelectionStep> path;  // the base set, and the best of each round to the end
 };
 
 // @param start near the minimum over `base`. @param base independent candidates.

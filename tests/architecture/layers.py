@@ -14,6 +14,7 @@ _CORE_ORDER = (
     ("core/identification", "core/compensation", "core/export"),
     ("core/assessment", "core/planning", "core/conversion"),  # docs/decisions/0004
     ("core/calibrate", "core/simulation"),
+    ("core/reproduce",),
 )
 
 
