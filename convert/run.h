@@ -53,6 +53,14 @@ absl::StatusOr<v1::CompensateResponse> RunCompensation(const v1::Nominal& nomina
                                                        const v1::Calibration& calibration,
                                                        const v1::CompensateRequest& request);
 
+// A model of a robot without data: candidates, which of them full poses of one tool at one
+// placement identify at any poses, counts by formula and rank, redundancies with a sentence each
+// ("dh2 = dh3: dropped dh3").
+// @param kind as CalibrationOptions.model. @returns kInvalidArgument with faults, `options.model`
+// for an unknown kind.
+absl::StatusOr<v1::ModelDescription> RunModelDescription(const v1::Nominal& nominal,
+                                                         const std::string& kind);
+
 // The figures from which a session is made of a robot. Standard deviations of one draw per
 // parameter.
 struct SimulationOptions {

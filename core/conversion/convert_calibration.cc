@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "absl/strings/str_cat.h"
 #include "core/base/fault.h"
@@ -29,6 +30,18 @@ constexpr double kSmallestError = 1e-6;  // m, rad: below it a ratio means nothi
 
 bool IsEffect(const Parameter& parameter) { return parameter.role == ParameterRole::kEffect; }
 
+void CheckValues(const Model& from, const Eigen::VectorXd& lambda, const Model& to,
+                 FaultList* faults) {
+  for (int i = 0; i < from.parameters.size(); ++i) {
+    const Parameter& parameter = from.parameters[i];
+    const std::string field = absl::StrCat("internal_parameters[", parameter.name, "]");
+    if (!std::isfinite(lambda(i))) faults->Add(field, absl::StrCat(lambda(i)), "a finite number");
+    if (IsEffect(parameter) && lambda(i) != 0 && !to.parameters.Find(parameter.name))
+      faults->Add(field, absl::StrCat(lambda(i)),
+                  absl::StrCat("an effect that ", to.kind, " has, too"));
+  }
+}
+
 absl::Status CheckInput(const Robot& robot, const Model& from, const Eigen::VectorXd& lambda,
                         const Model& to) {
   FaultList faults;
@@ -40,16 +53,8 @@ absl::Status CheckInput(const Robot& robot, const Model& from, const Eigen::Vect
   if (lambda.size() != from.parameters.size()) {
     faults.Add("internal_parameters", absl::StrCat(lambda.size(), " values"),
                absl::StrCat(from.parameters.size(), " of ", from.kind));
-    return faults.ToStatus();
-  }
-  for (int i = 0; i < from.parameters.size(); ++i) {
-    const Parameter& parameter = from.parameters[i];
-    if (!std::isfinite(lambda(i)))
-      faults.Add(absl::StrCat("internal_parameters[", parameter.name, "]"), absl::StrCat(lambda(i)),
-                 "a finite number");
-    if (IsEffect(parameter) && lambda(i) != 0 && !to.parameters.Find(parameter.name))
-      faults.Add(absl::StrCat("internal_parameters[", parameter.name, "]"), absl::StrCat(lambda(i)),
-                 absl::StrCat("an effect that ", to.kind, " has, too"));
+  } else {
+    CheckValues(from, lambda, to, &faults);
   }
   return faults.ToStatus();
 }

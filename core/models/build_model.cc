@@ -41,7 +41,8 @@ absl::StatusOr<Model> BuildModel(const std::string& kind, const Robot& robot, Mo
                        "modified_incremental or extended_dh: this model has no parameter between "
                        "base and flange of such a robot");
   }
-  return FaultStatus(kField, kind, absl::StrCat("one of ", absl::StrJoin(ModelKinds(), ", ")));
+  return FaultStatus(kField, absl::StrCat("'", kind, "'"),
+                     absl::StrCat("one of ", absl::StrJoin(ModelKinds(), ", ")));
 }
 
 }  // namespace truepose

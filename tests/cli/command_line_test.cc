@@ -14,10 +14,11 @@ using ::testing::StartsWith;
 // Every leaf of the command tree.
 const std::vector<std::vector<std::string>>& Commands() {
   static const auto* commands = new std::vector<std::vector<std::string>>{
-      {"robot", "add"},        {"robot", "list"},       {"robot", "show"}, {"session", "import"},
-      {"session", "list"},     {"session", "show"},     {"calibrate"},     {"evaluate"},
-      {"compensate"},          {"job", "watch"},        {"job", "list"},   {"job", "cancel"},
-      {"calibration", "list"}, {"calibration", "show"}, {"simulate"},      {"version"}};
+      {"robot", "add"},    {"robot", "list"},   {"robot", "show"},       {"session", "import"},
+      {"session", "list"}, {"session", "show"}, {"calibrate"},           {"evaluate"},
+      {"compensate"},      {"job", "watch"},    {"job", "list"},         {"job", "cancel"},
+      {"simulate"},        {"model"},           {"calibration", "list"}, {"calibration", "show"},
+      {"version"}};
   return *commands;
 }
 
@@ -39,8 +40,8 @@ TEST(Help, ListsCommandsAndExitCodes) {
   EXPECT_EQ(ran.code, 0);
   for (const char* name :
        {"serve", "robot", "session", "calibrate", "evaluate", "compensate", "job", "calibration",
-        "simulate", "version", "0  done", "1  the run", "2  the command line", "3  the input",
-        "4  the server", "5  the database", "6  not found"}) {
+        "simulate", "model", "version", "0  done", "1  the run", "2  the command line",
+        "3  the input", "4  the server", "5  the database", "6  not found"}) {
     EXPECT_THAT(ran.out, HasSubstr(name));
   }
 }
@@ -75,6 +76,7 @@ TEST(Usage, RefusesOptionsOfTheOtherWay) {
       {"compensate", "t.csv", "--local", "--calibration", "a"},
       {"compensate", "t.csv", "--robot", "r", "--calibration", "a#1"},
       {"simulate"},
+      {"model"},
       {"simulate", "a.yaml", "--measuring-robot"}};
   for (const auto& line : lines) EXPECT_EQ(RunCli(line).code, 2) << line.front();
 }

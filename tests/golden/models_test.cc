@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 
 #include "core/identification/identifiability.h"
@@ -159,6 +160,75 @@ TEST(ModelTable3, StanfordOverItsBase) {
   const Model model = ModelOf("extended_dh", robot, ModelExtent::kComplete);
   EXPECT_EQ(RankOf(StackedJacobian(robot, model, kPoses, kSeed)), 28);
   EXPECT_FALSE(model.parameters.Find("dl0").has_value());
+}
+
+Eigen::VectorXd Values(const Model& model, const std::vector<std::pair<std::string, double>>& set) {
+  Eigen::VectorXd lambda = Eigen::VectorXd::Zero(model.parameters.size());
+  for (const auto& [name, value] : set) lambda(model.parameters.Find(name).value()) = value;
+  return lambda;
+}
+
+// Eq. 33.
+Pose BaseMatrix(double X, double Y, double chi, double psi) {
+  const double cc = std::cos(chi), sc = std::sin(chi), cp = std::cos(psi), sp = std::sin(psi);
+  Pose A;
+  A.R << cp, 0, sp, sc * sp, cc, -sc * cp, -cc * sp, sc, cc * cp;
+  A.p << X, Y, 0;
+  return A;
+}
+
+// Eq. 34.
+Pose DhMatrix(double theta, double d, double a, double alpha) {
+  const double ct = std::cos(theta), st = std::sin(theta), ca = std::cos(alpha),
+               sa = std::sin(alpha);
+  Pose A;
+  A.R << ct, -st * ca, st * sa, st, ct * ca, -ct * sa, 0, sa, ca;
+  A.p << a * ct, a * st, d;
+  return A;
+}
+
+// Eq. 35 with d = 0, as Eq. 16.
+Pose HayatiMatrix(double theta, double a, double alpha, double y) {
+  const double ct = std::cos(theta), st = std::sin(theta), ca = std::cos(alpha),
+               sa = std::sin(alpha), cy = std::cos(y), sy = std::sin(y);
+  Pose A;
+  A.R << ct * cy - st * sa * sy, -st * ca, ct * sy + st * sa * cy,  //
+      st * cy + ct * sa * sy, ct * ca, st * sy - ct * sa * cy,      //
+      -ca * sy, sa, ca * cy;
+  A.p << a * ct, a * st, 0;
+  return A;
+}
+
+// The links of Sec. 11 as printed, errors of a degree and a centimetre included. 2e-15 is eight
+// roundings of entries of size 1.
+TEST(Section11, LinksAreEqs33To35) {
+  const Robot robot =
+      testing::DhRobot({{0, .252, 0, 90 * testing::kDeg}, {0, 0, .32, 0}, {}}, "RRR");
+  const Model model = ModelOf("extended_dh", robot, ModelExtent::kComplete);
+  Random random(32);
+  for (int draw = 0; draw < 20; ++draw) {
+    const Eigen::VectorXd q = testing::RandomVector(3, 3, &random),
+                          e = testing::RandomVector(12, 0.02, &random);
+    const Eigen::VectorXd lambda = Values(model, {{"da0", e(0)},
+                                                  {"db0", e(1)},
+                                                  {"dalpha0", e(2)},
+                                                  {"dbeta0", e(3)},
+                                                  {"dq1", e(4)},
+                                                  {"dh1", e(5)},
+                                                  {"dl1", e(6)},
+                                                  {"dphi1", e(7)},
+                                                  {"dq2", e(8)},
+                                                  {"dl2", e(9)},
+                                                  {"dphi2", e(10)},
+                                                  {"dbeta2", e(11)}});
+    const Pose expected = BaseMatrix(e(0), e(1), e(2), e(3)) *
+                          DhMatrix(q(0) + e(4), .252 + e(5), e(6), 90 * testing::kDeg + e(7)) *
+                          HayatiMatrix(q(1) + e(8), .32 + e(9), e(10), e(11)) *
+                          DhMatrix(q(2), 0, 0, 0);
+    const Pose X = Forward(model, q, lambda);
+    EXPECT_LT((X.R - expected.R).cwiseAbs().maxCoeff(), 2e-15);
+    EXPECT_LT((X.p - expected.p).cwiseAbs().maxCoeff(), 2e-15);
+  }
 }
 
 }  // namespace

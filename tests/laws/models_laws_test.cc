@@ -118,5 +118,61 @@ TEST(ModelLaws, SmallErrorsNeedSmallParameters) {
   }
 }
 
+// Angles and lengths as robot files have them: mostly special, sometimes any.
+double Draw(const std::vector<double>& special, double range, Random* random) {
+  if (random->Uniform() < 0.25) return random->Uniform(-range, range);
+  return special[random->Below(special.size())];
+}
+
+Axis DrawAxis(Random* random) { return static_cast<Axis>(random->Below(3)); }
+
+// Five joints of any kind about any axes, with up to three constant elements before each.
+absl::StatusOr<Robot> DrawRobot(Random* random) {
+  const double r = 90 * testing::kDeg;
+  Chain chain;
+  std::vector<Joint> joints;
+  for (int joint = 0; joint < 5; ++joint) {
+    for (uint64_t left = random->Below(4); left > 0; --left) {
+      if (random->Uniform() < 0.5)
+        chain.push_back(Rotation(DrawAxis(random), Draw({0, r, -r, 2 * r}, 2, random)));
+      else
+        chain.push_back(Translation(DrawAxis(random), Draw({0, 0.3, -0.2}, 0.5, random)));
+    }
+    const bool revolute = random->Uniform() < 0.65;
+    joints.push_back({"", revolute ? JointType::kRevolute : JointType::kPrismatic});
+    chain.push_back(
+        {revolute ? Motion::kRotation : Motion::kTranslation, DrawAxis(random), 0.0, joint, -1});
+  }
+  chain.push_back(Rotation(DrawAxis(random), Draw({0, r, -r}, 2, random)));
+  return Robot::Create(joints, chain, JointMap::Identity(5));
+}
+
+// Whatever the chain, the four models are that robot and span the same motions. Most of these
+// robots are good for nothing: axes on one line, prismatic ones between, every rule of Eq. 18 in
+// every order.
+TEST(ModelLaws, AnyChain) {
+  Random random(96);
+  int robots = 0;
+  for (int draw = 0; draw < 300; ++draw) {
+    const auto robot = DrawRobot(&random);
+    if (!robot.ok()) continue;  // consecutive prismatic joints that are parallel
+    ++robots;
+    const Model reference = ModelOf("modified_incremental", *robot, ModelExtent::kComplete);
+    const Eigen::MatrixXd J = testing::StackedJacobian(*robot, reference, 40, 97);
+    const Eigen::VectorXd q = RandomVector(5, 2, &random);
+    for (const std::string& kind : ModelKinds()) {
+      SCOPED_TRACE(std::to_string(draw) + ", " + kind);
+      const Model model = ModelOf(kind, *robot, ModelExtent::kComplete);
+      const Pose X = Forward(model, q, Eigen::VectorXd::Zero(model.parameters.size())),
+                 nominal = NominalForward(*robot, q);
+      EXPECT_LT((X.p - nominal.p).norm() + (X.R - nominal.R).norm(), 1e-12);
+      const Eigen::MatrixXd own = testing::StackedJacobian(*robot, model, 40, 97);
+      EXPECT_EQ(testing::RankOf(own), testing::RankOf(J));
+      EXPECT_EQ(testing::RankOf(testing::SideBySide(J, own)), testing::RankOf(J));
+    }
+  }
+  EXPECT_GT(robots, 200);
+}
+
 }  // namespace
 }  // namespace truepose

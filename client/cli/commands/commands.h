@@ -19,6 +19,7 @@ void AddJob(const Command& root);
 void AddCalibration(const Command& root);
 void AddCalibrationExport(const Command& calibration);
 void AddSimulate(const Command& root);
+void AddModel(const Command& root);
 void AddVersion(const Command& root);
 
 }  // namespace truepose::cli

@@ -32,7 +32,7 @@ TEST(BuildModel, UnknownKindListsAll) {
   const std::vector<Fault> faults = FaultsOf(model.status());
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_EQ(faults[0].field, "options.model");
-  EXPECT_EQ(faults[0].found, "dh");
+  EXPECT_EQ(faults[0].found, "'dh'");
   for (const std::string& kind : ModelKinds()) EXPECT_THAT(faults[0].expected, HasSubstr(kind));
   EXPECT_EQ(ModelKinds().size(), 4u);
 }
