@@ -157,6 +157,13 @@ void CheckMasses(const v1::Nominal& nominal, FaultList* faults) {
   }
 }
 
+std::vector<LinkMass> MassesFrom(const v1::Nominal& nominal) {
+  std::vector<LinkMass> masses;
+  for (const v1::LinkMass& mass : nominal.masses())
+    masses.push_back({mass.joint(), mass.mass_kg(), {mass.x_m(), mass.y_m(), mass.z_m()}});
+  return masses;
+}
+
 }  // namespace
 
 absl::StatusOr<Robot> RobotFrom(const v1::Nominal& nominal) {
@@ -168,7 +175,7 @@ absl::StatusOr<Robot> RobotFrom(const v1::Nominal& nominal) {
   CheckTools(nominal, &faults);
   CheckMasses(nominal, &faults);
   if (!faults.empty()) return faults.ToStatus();
-  return Robot::Create(std::move(joints), std::move(chain), std::move(map));
+  return Robot::Create(std::move(joints), std::move(chain), std::move(map), MassesFrom(nominal));
 }
 
 absl::StatusOr<Pose> ToolByName(const v1::Nominal& nominal, const std::string& name,

@@ -37,8 +37,9 @@ absl::StatusOr<v1::SessionInput> LoadSession(const std::string& path, const v1::
 
 }  // namespace
 
-absl::StatusOr<formats::RobotFile> LoadRobot(const std::string& path) {
-  absl::StatusOr<formats::RobotFile> file = formats::ReadRobotFile(path);
+absl::StatusOr<formats::RobotFile> LoadRobot(const std::string& path,
+                                             const formats::UrdfEnds& ends) {
+  absl::StatusOr<formats::RobotFile> file = formats::ReadRobotOrUrdfFile(path, ends);
   if (!file.ok()) return AsInputFault(file.status());
   TRUEPOSE_RETURN_IF_ERROR(
       formats::LocateFaults(convert::ValidateNominal(file->nominal), file->lines));

@@ -8,13 +8,20 @@
 #include "absl/status/statusor.h"
 #include "client/cli/console.h"
 #include "formats/robot_file.h"
+#include "formats/urdf.h"
 #include "truepose/v1/calibration.pb.h"
 #include "truepose/v1/session.pb.h"
 
 namespace truepose::cli {
 
-// A robot file whose content convert::ValidateNominal accepts.
-absl::StatusOr<formats::RobotFile> LoadRobot(const std::string& path);
+// A robot file, YAML or URDF, whose content convert::ValidateNominal accepts.
+// @param ends of a URDF file's chain: --urdf-base and --urdf-tip.
+absl::StatusOr<formats::RobotFile> LoadRobot(const std::string& path,
+                                             const formats::UrdfEnds& ends = {});
+
+inline constexpr char kUrdfBaseHelp[] = "Of a URDF file: the link of the base; default: the root";
+inline constexpr char kUrdfTipHelp[] =
+    "Of a URDF file: the link of the flange; default: the only link without a joint below it";
 
 // Session files for that robot, or the faults of all of them. A session's name is its path; its
 // robot is not set. What the reader of a file warns of goes to console.err.

@@ -111,4 +111,33 @@ Verdict Judge(const Identification& identification, const ParameterSet& paramete
   return verdict;
 }
 
+void JudgeVolume(double uncertainty_measured_m, double uncertainty_elsewhere_m,
+                 double unexplained_m, Verdict* verdict) {
+  if (uncertainty_elsewhere_m <= std::max(unexplained_m, 2 * uncertainty_measured_m)) return;
+  if (verdict->decision == Decision::kApply) verdict->decision = Decision::kApplyWithinVolume;
+  verdict->reasons.push_back(absl::StrFormat(
+      "the parameters alone leave %.3f mm uncertain at the measured poses, but %.3f mm elsewhere "
+      "(unexplained anyway: %.3f mm): the poses cover little",
+      1e3 * uncertainty_measured_m, 1e3 * uncertainty_elsewhere_m, 1e3 * unexplained_m));
+}
+
+void JudgeSelection(const std::vector<SelectionStep>& path, Verdict* verdict) {
+  if (path.empty()) return;
+  if (verdict->decision == Decision::kApply) verdict->decision = Decision::kApplyWithinVolume;
+  const auto taken = std::count_if(path.begin(), path.end(), [](const SelectionStep& step) {
+    return step.taken && !step.added.empty();
+  });
+  verdict->reasons.push_back(absl::StrCat(
+      "a selection chose ", taken,
+      " parameters beside offsets and lengths; the others stayed nominal at these poses"));
+}
+
+void JudgeChange(double p_value, bool real, Verdict* verdict) {
+  if (!real) verdict->decision = Decision::kDoNotApply;
+  verdict->reasons.push_back(absl::StrFormat(
+      real ? "the change from the earlier calibration is real (p = %.2g)"
+           : "the earlier calibration still holds: a change like this is chance (p = %.2g)",
+      p_value));
+}
+
 }  // namespace truepose

@@ -6,6 +6,7 @@
 
 #include "core/assessment/statistics.h"
 #include "core/identification/identify.h"
+#include "core/identification/selection.h"
 
 namespace truepose {
 
@@ -34,5 +35,18 @@ Interval BootstrapRatio(const std::vector<PoseError>& before, const std::vector<
 Verdict Judge(const Identification& identification, const ParameterSet& parameters,
               const std::vector<PoseError>& control_before,
               const std::vector<PoseError>& control_after);
+
+// apply becomes apply_within_volume when the measured poses cover so little that elsewhere within
+// the joint ranges the uncertainty of the parameters alone exceeds what stays unexplained anyway,
+// and twice what it is at the measured poses. All RMS position, m.
+void JudgeVolume(double uncertainty_measured_m, double uncertainty_elsewhere_m,
+                 double unexplained_m, Verdict* verdict);
+
+// apply becomes apply_within_volume when a selection left parameters at nominal.
+// @param path of the selection; empty = none was made.
+void JudgeSelection(const std::vector<SelectionStep>& path, Verdict* verdict);
+
+// do_not_apply when parameters found anew don't differ from the stored ones beyond chance.
+void JudgeChange(double p_value, bool real, Verdict* verdict);
 
 }  // namespace truepose

@@ -31,8 +31,9 @@ void Place(const std::vector<int>& indices, const std::vector<Pose>& frames,
   }
 }
 
-// Candidates of the frames that are not known.
-std::vector<int> UnknownFrames(const Problem& problem, const StartOptions& options) {
+// Candidates of the frames and constants that are not known.
+std::vector<int> UnknownFrames(const Problem& problem, const StartOptions& options,
+                               const std::vector<int>& known_offsets) {
   std::vector<int> active;
   const auto add = [&](int first) {
     for (int i = 0; i < kFrameParameters; ++i) active.push_back(first + i);
@@ -42,6 +43,10 @@ std::vector<int> UnknownFrames(const Problem& problem, const StartOptions& optio
   }
   for (int t = 0; t < problem.target_count(); ++t) {
     if (!options.tool_known[t]) add(problem.FirstOfTool(t));
+  }
+  for (int i = 0; i < static_cast<int>(problem.offsets.size()); ++i) {
+    if (std::find(known_offsets.begin(), known_offsets.end(), i) == known_offsets.end())
+      active.push_back(problem.FirstOfOffsets() + i);
   }
   return active;
 }
@@ -56,15 +61,17 @@ Part PartOf(const CalibrationProblem& whole, const Model& model, const std::vect
     Reading reading = whole.readings[i];
     reading.placement = Renumbered(reading.placement, &part.placements);
     reading.target = Renumbered(reading.target, &part.targets);
+    if (reading.offset >= 0) reading.offset = Renumbered(reading.offset, &part.offsets);
     part.problem.readings.push_back(std::move(reading));
   }
   part.problem.placements = LabelsOf(part.placements, whole.placements);
   part.problem.targets = LabelsOf(part.targets, whole.targets);
+  part.problem.offsets = LabelsOf(part.offsets, whole.offsets);
   return part;
 }
 
 Problem WholeProblem(const CalibrationProblem& whole, const Model& model) {
-  return {&model, whole.readings, whole.placements, whole.targets};
+  return {&model, whole.readings, whole.placements, whole.targets, whole.offsets};
 }
 
 absl::StatusOr<WholeFrames> FramesOfWhole(const CalibrationProblem& whole, const Model& model,
@@ -84,7 +91,9 @@ absl::StatusOr<WholeFrames> FramesOfWhole(const CalibrationProblem& whole, const
         &frames.tool_fitted_on);
   TRUEPOSE_ASSIGN_OR_RETURN(frames.estimate, FindStart(problem, options, hooks));
   frames.estimate.lambda = of_part.estimate.lambda;
-  const std::vector<int> unknown = UnknownFrames(problem, options);
+  for (size_t i = 0; i < part.offsets.size(); ++i)
+    frames.estimate.offsets(part.offsets[i]) = of_part.estimate.offsets(static_cast<int>(i));
+  const std::vector<int> unknown = UnknownFrames(problem, options, part.offsets);
   if (!unknown.empty())
     Solve(problem, of_part.model_error, unknown, SolveOptions{}, hooks, &frames.estimate);
   return frames;

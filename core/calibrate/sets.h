@@ -10,7 +10,7 @@ namespace truepose {
 // A problem of some of the readings, and which frames of the whole its frames are.
 struct Part {
   Problem problem;
-  std::vector<int> placements, targets;  // part index -> whole index
+  std::vector<int> placements, targets, offsets;  // part index -> whole index
 };
 
 // @param chosen one flag a reading.

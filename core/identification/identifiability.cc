@@ -82,7 +82,9 @@ NullRelation RelationOf(const Eigen::MatrixXd& columns, const GreedyBasis& basis
 
 bool IsUndetermined(const Parameter& parameter, double unexplained,
                     const IdentifiabilityOptions& options) {
-  if (!options.use_sd_bounds || parameter.role == ParameterRole::kExternal) return false;
+  const bool bounded =
+      parameter.role != ParameterRole::kExternal && parameter.role != ParameterRole::kEffect;
+  if (!options.use_sd_bounds || !bounded) return false;
   return 1 / unexplained >
          (parameter.is_angle() ? options.most_angle_sd_rad : options.most_length_sd_m);
 }

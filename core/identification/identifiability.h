@@ -63,7 +63,12 @@ IdentifiableSet GenericIdentifiable(const Problem& problem, const Robot& robot);
 // "dbeta2 acts as 1 dq2 - 612.7 mm/rad db3": for people, terms by size. Relations that involve base
 // or tool name the frame instead of its six terms.
 std::string RelationText(const NullRelation& relation, const ParameterSet& candidates);
-// A sentence that says why the parameter stayed at nominal.
+// What was done about it: "dh2 = dh3: dropped dh3" for two parameters that act alike (also base and
+// tool by name: "dq1 = a motion of the base frame: dropped dq1"), else RelationText and what was
+// dropped.
+std::string DroppedText(const NullRelation& relation, const ParameterSet& candidates);
+// A sentence that says why the parameter stayed at nominal. Of two that act alike it is DroppedText
+// and at which poses that holds.
 std::string ReasonText(const NullRelation& relation, const ParameterSet& candidates);
 
 }  // namespace truepose

@@ -4,53 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 #include <set>
 
 #include "absl/strings/str_cat.h"
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
-#include "core/identification/prediction.h"
+#include "core/identification/weighted_solve.h"
 
 namespace truepose {
 namespace {
-
-double RelativeChange(double a, double b) { return std::abs(a - b) / std::max(a, b); }
-
-bool Stands(const ModelError& a, const ModelError& b, double tolerance) {
-  return RelativeChange(a.position_sd_m, b.position_sd_m) < tolerance &&
-         RelativeChange(a.rotation_sd_rad, b.rotation_sd_rad) < tolerance;
-}
-
-void Accumulate(const SolveSummary& round, SolveSummary* total) {
-  const bool first = total->iterations == 0;
-  const double initial = first ? round.initial_cost : total->initial_cost;
-  const int iterations = total->iterations + round.iterations;
-  *total = round;
-  total->initial_cost = initial;
-  total->iterations = iterations;
-}
-
-// Solves and re-weights in turn until the weights stand; the last solve used the weights that are
-// returned.
-absl::Status SolveWithWeights(const Problem& problem, const std::vector<int>& active,
-                              const IdentifyOptions& options, const Hooks& hooks,
-                              Identification* result) {
-  for (int round = 0; round < options.max_weight_rounds; ++round) {
-    Accumulate(Solve(problem, result->model_error, active, options.solve, hooks, &result->estimate),
-               &result->summary);
-    if (result->summary.termination == Termination::kCancelled)
-      return absl::CancelledError("cancelled");
-    if (result->summary.termination == Termination::kFailed) return absl::OkStatus();
-    const ModelError next =
-        EstimateModelError(problem, result->estimate, active, result->model_error);
-    if (Stands(next, result->model_error, options.weight_tolerance)) return absl::OkStatus();
-    if (round + 1 == options.max_weight_rounds) break;
-    result->model_error = next;
-  }
-  result->summary.termination = Termination::kIterationLimit;
-  result->summary.message = "the estimated model error did not settle";
-  return absl::OkStatus();
-}
 
 IdentifiableSet ExternalSet(const Eigen::MatrixXd& J, const Problem& problem,
                             IdentifiabilityOptions options) {
@@ -61,26 +24,20 @@ IdentifiableSet ExternalSet(const Eigen::MatrixXd& J, const Problem& problem,
   return Identifiable(J.leftCols(problem.FirstInternal()), external, options);
 }
 
-// (J'J)^-1 of the active columns, by QR of the columns scaled to norm 1.
-Eigen::MatrixXd ParameterCovariance(const Eigen::MatrixXd& J, const std::vector<int>& active) {
-  Eigen::MatrixXd columns = J(Eigen::all, active);
-  const Eigen::VectorXd scale = columns.colwise().norm().cwiseInverse();
-  columns = columns * scale.asDiagonal();
-  const Eigen::Index n = columns.cols();
-  const Eigen::MatrixXd R = Eigen::HouseholderQR<Eigen::MatrixXd>(columns).matrixQR().topRows(n);
-  const Eigen::MatrixXd inverse =
-      R.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(n, n));
-  return scale.asDiagonal() * (inverse * inverse.transpose()) * scale.asDiagonal();
-}
-
 void Finish(const Problem& problem, Identification* result) {
   const WhitenedSystem system = Whitened(problem, result->estimate, result->model_error);
-  result->rows = static_cast<int>(system.r.size());
-  const int redundancy = result->rows - static_cast<int>(result->set.active.size());
+  const int prior_rows = problem.prior ? static_cast<int>(problem.prior->root.rows()) : 0;
+  const int active = static_cast<int>(result->set.active.size());
+  const int all_rows = static_cast<int>(system.r.size());
   const double sum = system.r.squaredNorm();
-  result->weighted_residual_variance = redundancy > 0 ? sum / redundancy : 0;
+  result->rows = all_rows - prior_rows;
+  result->weighted_residual_variance = all_rows > active ? sum / (all_rows - active) : 0;
   result->summary.final_cost = sum / 2;
-  if (result->rows >= static_cast<int>(result->set.active.size())) {
+  result->weights.clear();
+  for (const Reading& reading : problem.readings) result->weights.push_back(reading.weight);
+  if (result->summary.covariance_approximate) {
+    result->covariance = result->summary.covariance;
+  } else if (all_rows >= active) {
     result->covariance = ParameterCovariance(system.J, result->set.active);
   }
 }
@@ -106,21 +63,72 @@ void MarkStructural(const Problem& problem, const IdentifiableSet& generic, Iden
   }
 }
 
-// Always at nominal lambda: there the model's own redundancies are exact. At identified parameters
-// two nominally parallel axes are a milliradian apart, a redundant parameter looks independent, and
-// the basis that keeps it in place of a strong one is worse conditioned by a factor of 1,000 (UR10:
-// 15,000 against 50).
-IdentifiableSet SetAtNominal(const Problem& problem, const Identification& before,
-                             const ModelError& model_error, const IdentifiabilityOptions& options) {
-  return Identifiable(Whitened(problem, before.estimate, model_error).J, Candidates(problem),
-                      options);
+// The columns that may move, and which candidates they are.
+struct FreeColumns {
+  std::vector<int> candidates;
+  ParameterSet names;
+};
+
+FreeColumns FreeOf(const Problem& problem, const std::vector<int>& free) {
+  const ParameterSet all = Candidates(problem);
+  FreeColumns columns{free, {}};
+  if (free.empty()) {
+    columns.candidates.resize(all.size());
+    std::iota(columns.candidates.begin(), columns.candidates.end(), 0);
+  }
+  for (int candidate : columns.candidates) columns.names.Add(all[candidate]);
+  return columns;
 }
 
-// Parameters that are no longer active go back to nominal.
-void ResetInactive(const Problem& problem, const std::vector<int>& active, Estimate* estimate) {
+// From indices of columns back to candidates.
+void Renumber(const std::vector<int>& candidates, IdentifiableSet* set) {
+  for (int& index : set->active) index = candidates[index];
+  for (NullRelation& relation : set->redundancies) {
+    relation.dropped = candidates[relation.dropped];
+    for (auto& [index, coefficient] : relation.kept) index = candidates[index];
+  }
+}
+
+// Whether a prior holds geometric parameters, which then can't be too weak.
+bool HoldsGeometry(const Problem& problem) {
+  if (!problem.prior) return false;
+  const ParameterSet& parameters = problem.model->parameters;
+  for (int i = 0; i < parameters.size(); ++i) {
+    if (parameters[i].role != ParameterRole::kEffect && !problem.prior->root.col(i).isZero(0))
+      return true;
+  }
+  return false;
+}
+
+// Always at nominal lambda, and by the readings alone: there the model's own redundancies are
+// exact. At identified parameters two nominally parallel axes are a milliradian apart, a redundant
+// parameter looks independent, and the basis that keeps it in place of a strong one is worse
+// conditioned by a factor of 1,000 (UR10: 15,000 against 50). With a prior nothing would be
+// redundant, and all would be spread over redundant parameters.
+IdentifiableSet SetAtNominal(const Problem& problem, const Identification& before,
+                             const ModelError& model_error, const IdentifyOptions& options,
+                             bool use_sd_bounds) {
+  Estimate nominal = before.estimate;
+  nominal.lambda.setZero();
+  IdentifiabilityOptions identifiability = options.identifiability;
+  identifiability.use_sd_bounds =
+      identifiability.use_sd_bounds && use_sd_bounds && !HoldsGeometry(problem);
+  const FreeColumns columns = FreeOf(problem, options.free);
+  Eigen::MatrixXd J = Whitened(problem, nominal, model_error).J;
+  if (problem.prior) J.bottomRows(problem.prior->root.rows()).setZero();
+  IdentifiableSet set =
+      Identifiable(J(Eigen::all, columns.candidates), columns.names, identifiability);
+  Renumber(columns.candidates, &set);
+  return set;
+}
+
+// Parameters that are no longer active go back to where they started.
+void ResetInactive(const Problem& problem, const std::vector<int>& active,
+                   const Eigen::VectorXd& start, Estimate* estimate) {
   const std::set<int> kept(active.begin(), active.end());
   for (Eigen::Index i = 0; i < estimate->lambda.size(); ++i) {
-    if (!kept.contains(problem.FirstInternal() + static_cast<int>(i))) estimate->lambda(i) = 0;
+    if (!kept.contains(problem.FirstInternal() + static_cast<int>(i)))
+      estimate->lambda(i) = start(i);
   }
 }
 
@@ -141,18 +149,17 @@ IdentifiableSet Shrunk(const IdentifiableSet& again, const std::vector<int>& act
 
 // Solves for the kept candidates, then looks again with the weights found, until none proves too
 // weak: the set that is returned is one that was solved. Ends, since the set shrinks each time.
-absl::Status SolveKept(const Problem& problem, const Identification& before,
-                       const IdentifyOptions& options, const Hooks& hooks, Identification* result) {
+absl::Status SolveKept(const Identification& before, const IdentifyOptions& options,
+                       const Hooks& hooks, Problem* problem, Identification* result) {
   for (;;) {
-    TRUEPOSE_RETURN_IF_ERROR(SolveWithWeights(problem, result->set.active, options, hooks, result));
+    TRUEPOSE_RETURN_IF_ERROR(SolveWithWeights(result->set.active, options, hooks, problem, result));
     if (result->summary.termination == Termination::kFailed) return absl::OkStatus();
-    IdentifiableSet again =
-        Shrunk(SetAtNominal(problem, before, result->model_error, options.identifiability),
-               result->set.active);
+    IdentifiableSet again = Shrunk(
+        SetAtNominal(*problem, before, result->model_error, options, true), result->set.active);
     result->set.condition = again.condition;
     if (again.active.size() == result->set.active.size()) return absl::OkStatus();
     result->set = std::move(again);
-    ResetInactive(problem, result->set.active, &result->estimate);
+    ResetInactive(*problem, result->set.active, before.estimate.lambda, &result->estimate);
   }
 }
 
@@ -174,31 +181,50 @@ absl::Status CheckFrames(const Problem& problem, const IdentifiableSet& generic,
   return faults.ToStatus(absl::StatusCode::kFailedPrecondition);
 }
 
+Eigen::MatrixXd ParameterCovariance(const Eigen::MatrixXd& J, const std::vector<int>& active) {
+  Eigen::MatrixXd columns = J(Eigen::all, active);
+  const Eigen::VectorXd scale = columns.colwise().norm().cwiseInverse();
+  columns = columns * scale.asDiagonal();
+  const Eigen::Index n = columns.cols();
+  const Eigen::MatrixXd R = Eigen::HouseholderQR<Eigen::MatrixXd>(columns).matrixQR().topRows(n);
+  const Eigen::MatrixXd inverse =
+      R.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(n, n));
+  return scale.asDiagonal() * (inverse * inverse.transpose()) * scale.asDiagonal();
+}
+
 absl::StatusOr<Identification> FitFrames(const Problem& problem, const Estimate& start,
                                          const IdentifyOptions& options, const Hooks& hooks) {
+  Problem frames_alone = problem;  // lambda is held, so a prior says nothing
+  frames_alone.prior.reset();
+  IdentifyOptions direct = options;
+  direct.solve.estimator = Estimator::kLevenbergMarquardt;
   Identification result;
   result.estimate = start;
-  result.set =
-      ExternalSet(Whitened(problem, start, result.model_error).J, problem, options.identifiability);
-  TRUEPOSE_RETURN_IF_ERROR(SolveWithWeights(problem, result.set.active, options, hooks, &result));
-  Finish(problem, &result);
+  result.set = ExternalSet(Whitened(frames_alone, start, result.model_error).J, problem,
+                           options.identifiability);
+  if (!options.free.empty()) {
+    const std::set<int> free(options.free.begin(), options.free.end());
+    std::erase_if(result.set.active, [&](int candidate) { return !free.contains(candidate); });
+  }
+  TRUEPOSE_RETURN_IF_ERROR(
+      SolveWithWeights(result.set.active, direct, hooks, &frames_alone, &result));
+  Finish(frames_alone, &result);
   return result;
 }
 
 absl::StatusOr<Identification> Identify(const Problem& problem, const IdentifiableSet& generic,
                                         const Identification& before,
                                         const IdentifyOptions& options, const Hooks& hooks) {
+  Problem weighed = problem;
   Identification result;
   result.estimate = before.estimate;
   result.model_error = before.model_error;
-  IdentifiabilityOptions dependence_only = options.identifiability;
-  dependence_only.use_sd_bounds =
-      false;  // the weights of "before" are those of an uncalibrated robot
-  result.set = SetAtNominal(problem, before, before.model_error, dependence_only);
-  TRUEPOSE_RETURN_IF_ERROR(CheckFrames(problem, generic, result.set));
-  TRUEPOSE_RETURN_IF_ERROR(SolveKept(problem, before, options, hooks, &result));
+  // The weights of "before" are those of an uncalibrated robot: no bounds on deviations yet.
+  result.set = SetAtNominal(problem, before, before.model_error, options, false);
+  if (options.free.empty()) TRUEPOSE_RETURN_IF_ERROR(CheckFrames(problem, generic, result.set));
+  TRUEPOSE_RETURN_IF_ERROR(SolveKept(before, options, hooks, &weighed, &result));
   MarkStructural(problem, generic, &result.set);
-  Finish(problem, &result);
+  Finish(weighed, &result);
   return result;
 }
 

@@ -1,15 +1,17 @@
 // Identification with weights that fit the residuals: the loop around the solver.
 //
-//   start -> frames alone ("before") -> identifiable set -> { solve, estimate s_model } until
-//   s_model stands -> identifiable set again with the right weights; solve again if it changed ->
-//   covariance
+//   start -> frames alone ("before") -> identifiable set -> { solve, estimate s_model, weigh the
+//   readings } until all stand -> identifiable set again with the right weights; solve again if it
+//   changed -> covariance
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "absl/status/statusor.h"
 #include "core/identification/identifiability.h"
+#include "core/identification/robust.h"
 #include "core/identification/solve.h"
 #include "core/identification/start_values.h"
 
@@ -18,10 +20,11 @@ namespace truepose {
 struct Identification {
   Estimate estimate;
   ModelError model_error;
-  IdentifiableSet set;         // redundancies marked structural where they hold for any poses
-  Eigen::MatrixXd covariance;  // of set.active, in their order; SI
-  SolveSummary summary;        // of the whole loop: first cost, last cost, iterations summed
-  int rows = 0;
+  IdentifiableSet set;          // redundancies marked structural where they hold for any poses
+  Eigen::MatrixXd covariance;   // of set.active, in their order; SI
+  SolveSummary summary;         // of the whole loop: first cost, last cost, iterations summed
+  std::vector<double> weights;  // of the readings; all 1 without a robust loss
+  int rows = 0;                 // measured values; those of a prior are not among them
   double weighted_residual_variance = 0;  // 2 cost / (rows - active): 1 where the weights settled
 };
 
@@ -32,6 +35,11 @@ struct IdentifyOptions {
   // than their deviation.
   double weight_tolerance = 1e-5;
   int max_weight_rounds = 30;
+  Loss loss = Loss::kNone;
+  // Candidates that may move; empty = all. The others stay where the start has them.
+  std::vector<int> free;
+  // s_model of an earlier calibration in place of an estimate, for readings too few to give one.
+  std::optional<ModelError> known_model_error;
 };
 
 // Fits base and tool alone, lambda as given: "before", and how a calibration meets a new session.
@@ -46,7 +54,9 @@ absl::StatusOr<Identification> FitFrames(const Problem& problem, const Estimate&
 absl::Status CheckFrames(const Problem& problem, const IdentifiableSet& generic,
                          const IdentifiableSet& actual);
 
-// Identifies everything that the readings determine, from `before` = FitFrames at nominal lambda.
+// Identifies everything that the readings determine, from `before` = FitFrames at nominal lambda,
+// or at that of an earlier calibration. The problem's prior takes part; which parameters are
+// identifiable is judged without it, at nominal lambda, and with it none is called too weak.
 // @param generic GenericIdentifiable of the problem: what could be determined at best.
 // @returns kFailedPrecondition with a fault for each base or tool direction that generic readings
 // would determine and
@@ -54,5 +64,8 @@ absl::Status CheckFrames(const Problem& problem, const IdentifiableSet& generic,
 absl::StatusOr<Identification> Identify(const Problem& problem, const IdentifiableSet& generic,
                                         const Identification& before,
                                         const IdentifyOptions& options, const Hooks& hooks);
+
+// (J'J)^-1 of the active columns, by QR of the columns scaled to norm 1. @param J rows >= active.
+Eigen::MatrixXd ParameterCovariance(const Eigen::MatrixXd& J, const std::vector<int>& active);
 
 }  // namespace truepose

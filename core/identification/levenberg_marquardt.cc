@@ -5,12 +5,10 @@
 #include <algorithm>
 #include <memory>
 
-#include "core/identification/prediction.h"
+#include "core/identification/candidate_values.h"
 
 namespace truepose {
 namespace {
-
-using Corrections = std::vector<std::array<double, kFrameParameters>>;
 
 // One reading as a residual block over (base corrections, tool corrections, internal parameters
 // [, constant of a distance]).
@@ -131,70 +129,51 @@ Termination TerminationOf(const ceres::Solver::Summary& summary, const Hooks& ho
   return hooks.Cancelled() ? Termination::kCancelled : Termination::kFailed;
 }
 
-void MoveFrames(const Corrections& corrections, std::vector<Pose>* frames) {
-  for (size_t i = 0; i < frames->size(); ++i) {
-    (*frames)[i] = Corrected((*frames)[i], corrections[i].data(), nullptr);
-    (*frames)[i].R =
-        NearestRotation((*frames)[i].R);  // products of rotations drift from orthogonality
-  }
-}
-
-// The solver's view of a problem: its blocks of variables, one residual block a reading, and the
-// prior's.
+// The solver's view of a problem: its blocks of variables are parts of the candidates' values, one
+// residual block a reading, and the prior's.
 class Blocks {
  public:
   Blocks(const Problem& problem, const ModelError& model_error, const std::vector<int>& active,
          const Estimate& start)
-      : base_(problem.placements.size()),
-        tool_(problem.targets.size()),
-        lambda_(start.lambda),
-        offsets_(start.offsets) {
-    solver_ = std::make_unique<ceres::Problem>();
+      : values_(ValuesOf(problem, start)), solver_(std::make_unique<ceres::Problem>()) {
     for (const Reading& reading : problem.readings) {
-      std::vector<double*> blocks = {base_[reading.placement].data(), tool_[reading.target].data(),
-                                     lambda_.data()};
-      if (reading.offset >= 0) blocks.push_back(&offsets_(reading.offset));
       solver_->AddResidualBlock(
           new ReadingCost(*problem.model, reading, start,
                           WhitenerOf(problem, reading, start, model_error), &workspace_),
-          nullptr, blocks);
+          nullptr, BlocksOf(problem, reading));
     }
-    if (problem.prior)
-      solver_->AddResidualBlock(new PriorCost(*problem.prior), nullptr, lambda_.data());
+    if (problem.prior) {
+      solver_->AddResidualBlock(new PriorCost(*problem.prior), nullptr,
+                                values_.data() + problem.FirstInternal());
+    }
     Hold(problem, active);
   }
 
   ceres::Problem* solver() { return solver_.get(); }
-
-  void WriteTo(Estimate* estimate) const {
-    MoveFrames(base_, &estimate->X_MB);
-    MoveFrames(tool_, &estimate->X_FT);
-    estimate->lambda = lambda_;
-    estimate->offsets = offsets_;
-  }
+  const Eigen::VectorXd& values() const { return values_; }
 
  private:
+  std::vector<double*> BlocksOf(const Problem& problem, const Reading& reading) {
+    std::vector<double*> blocks = {values_.data() + problem.FirstOfBase(reading.placement),
+                                   values_.data() + problem.FirstOfTool(reading.target),
+                                   values_.data() + problem.FirstInternal()};
+    if (reading.offset >= 0)
+      blocks.push_back(values_.data() + problem.FirstOfOffsets() + reading.offset);
+    return blocks;
+  }
+
   void Hold(const Problem& problem, const std::vector<int>& active) {
     std::vector<bool> is_active(problem.CandidateCount(), false);
     for (int index : active) is_active[index] = true;
-    for (size_t i = 0; i < base_.size(); ++i) {
-      HoldInactive(is_active, problem.FirstOfBase(static_cast<int>(i)), kFrameParameters,
-                   base_[i].data(), solver_.get());
-    }
-    for (size_t i = 0; i < tool_.size(); ++i) {
-      HoldInactive(is_active, problem.FirstOfTool(static_cast<int>(i)), kFrameParameters,
-                   tool_[i].data(), solver_.get());
-    }
-    for (Eigen::Index i = 0; i < offsets_.size(); ++i) {
-      HoldInactive(is_active, problem.FirstOfOffsets() + static_cast<int>(i), 1, &offsets_(i),
-                   solver_.get());
-    }
-    HoldInactive(is_active, problem.FirstInternal(), static_cast<int>(lambda_.size()),
-                 lambda_.data(), solver_.get());
+    const auto hold = [&](int first, int size) {
+      HoldInactive(is_active, first, size, values_.data() + first, solver_.get());
+    };
+    for (int i = 0; i < problem.FirstOfOffsets(); i += kFrameParameters) hold(i, kFrameParameters);
+    for (int i = problem.FirstOfOffsets(); i < problem.FirstInternal(); ++i) hold(i, 1);
+    hold(problem.FirstInternal(), problem.model->parameters.size());
   }
 
-  Corrections base_, tool_;
-  Eigen::VectorXd lambda_, offsets_;
+  Eigen::VectorXd values_;
   Workspace workspace_;
   std::unique_ptr<ceres::Problem> solver_;
 };
@@ -209,9 +188,13 @@ SolveSummary Minimise(const Problem& problem, const ModelError& model_error,
   ceres::Solver::Summary summary;
   ceres::Solve(SolverOptions(options, blocks.solver()->NumResiduals(), &callback), blocks.solver(),
                &summary);
-  SolveSummary result{TerminationOf(summary, hooks), static_cast<int>(summary.iterations.size()),
-                      summary.initial_cost, summary.final_cost, summary.message};
-  if (summary.IsSolutionUsable()) blocks.WriteTo(estimate);
+  SolveSummary result;
+  result.termination = TerminationOf(summary, hooks);
+  result.iterations = static_cast<int>(summary.iterations.size());
+  result.initial_cost = summary.initial_cost;
+  result.final_cost = summary.final_cost;
+  result.message = summary.message;
+  if (summary.IsSolutionUsable()) *estimate = EstimateAt(problem, *estimate, blocks.values());
   return result;
 }
 

@@ -36,6 +36,14 @@ std::vector<std::string> FrameTerms(const NullRelation& relation, const Paramete
   return names;
 }
 
+// Coefficients this near to 1 are 1: a basis at generic poses leaves about 1e-12 of rounding.
+constexpr double kOne = 1e-9;
+
+bool ActsAlike(const NullRelation& relation, const ParameterSet& candidates) {
+  return relation.kept.size() == 1 && !IsExternal(candidates, relation.kept[0]) &&
+         std::abs(relation.kept[0].second - 1) < kOne;
+}
+
 }  // namespace
 
 std::string RelationText(const NullRelation& relation, const ParameterSet& candidates) {
@@ -50,6 +58,14 @@ std::string RelationText(const NullRelation& relation, const ParameterSet& candi
   return absl::StrCat(dropped.name, " = ", absl::StrJoin(terms, " and "));
 }
 
+std::string DroppedText(const NullRelation& relation, const ParameterSet& candidates) {
+  const std::string& name = candidates[relation.dropped].name;
+  const std::string left = ActsAlike(relation, candidates)
+                               ? absl::StrCat(candidates[relation.kept[0].first].name, " = ", name)
+                               : RelationText(relation, candidates);
+  return absl::StrCat(left, ": dropped ", name);
+}
+
 std::string ReasonText(const NullRelation& relation, const ParameterSet& candidates) {
   const std::string& name = candidates[relation.dropped].name;
   const std::string always = relation.structural ? "at any poses" : "at these poses";
@@ -58,6 +74,8 @@ std::string ReasonText(const NullRelation& relation, const ParameterSet& candida
   }
   if (relation.kept.empty())
     return absl::StrCat(name, " does not show in this measurement ", always);
+  if (ActsAlike(relation, candidates))
+    return absl::StrCat(DroppedText(relation, candidates), ", ", always);
   const std::vector<std::string> frames = FrameTerms(relation, candidates);
   const bool only_frames = std::all_of(relation.kept.begin(), relation.kept.end(),
                                        [&](const auto& t) { return IsExternal(candidates, t); });

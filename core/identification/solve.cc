@@ -1,8 +1,37 @@
 #include "core/identification/solve.h"
 
+#include "core/identification/kalman.h"
 #include "core/identification/levenberg_marquardt.h"
+#include "core/identification/linear_iteration.h"
+#include "core/identification/simplex.h"
 
 namespace truepose {
+namespace {
+
+SolveSummary NothingToDo(const Problem& problem, const ModelError& model_error,
+                         const Estimate& estimate) {
+  SolveSummary summary;
+  summary.termination = Termination::kConverged;
+  summary.initial_cost = summary.final_cost =
+      CostOf(problem, estimate, WhitenersOf(problem, estimate, model_error));
+  return summary;
+}
+
+auto FunctionOf(Estimator estimator) {
+  switch (estimator) {
+    case Estimator::kLevenbergMarquardt:
+      break;
+    case Estimator::kLinearIteration:
+      return &IterateLinearly;
+    case Estimator::kKalman:
+      return &FilterKalman;
+    case Estimator::kSimplex:
+      return &SearchBySimplex;
+  }
+  return &Minimise;
+}
+
+}  // namespace
 
 const char* Name(Termination termination) {
   switch (termination) {
@@ -35,7 +64,8 @@ const char* Name(Estimator estimator) {
 SolveSummary Solve(const Problem& problem, const ModelError& model_error,
                    const std::vector<int>& active, const SolveOptions& options, const Hooks& hooks,
                    Estimate* estimate) {
-  return Minimise(problem, model_error, active, options, hooks, estimate);
+  if (active.empty()) return NothingToDo(problem, model_error, *estimate);
+  return FunctionOf(options.estimator)(problem, model_error, active, options, hooks, estimate);
 }
 
 }  // namespace truepose

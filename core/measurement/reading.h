@@ -44,7 +44,7 @@ struct Reading {
   Pose X_MT;  // measured; R is used by kPose only
   Eigen::Vector3d axis_M =
       Eigen::Vector3d::UnitZ();  // measured unit z axis of T, used by kPointAxis only
-  Eigen::Vector3d normal_M = Eigen::Vector3d::UnitZ();  // kPlane: of the plane through X_MT.p
+  Eigen::Vector3d normal_M = Eigen::Vector3d::UnitZ();   // kPlane: of the plane through X_MT.p
   std::array<bool, 3> coordinates = {true, true, true};  // which of x, y, z kCoordinates has
   Eigen::Vector3d anchor_M = Eigen::Vector3d::Zero();    // kDistance: measured from here
   double distance_m = 0;                                 // kDistance: the measured value
@@ -57,8 +57,8 @@ struct Reading {
                                                           // added to the two above
   bool contact = false;  // the place is that of a fixture and not of an instrument: frames of M
                          // that its places leave free (a turn about a line of sockets) are no fault
-  double weight = 1;  // of a robust loss: the whole covariance is divided by it
-  int id = 0;         // the caller's name for it
+  double weight = 1;     // of a robust loss: the whole covariance is divided by it
+  int id = 0;            // the caller's name for it
 };
 
 // Residual rows: position rows, then rotation rows. At most 6.

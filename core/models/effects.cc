@@ -52,6 +52,10 @@ const std::vector<EffectGroup>& AllEffectGroups() {
 }
 
 void AddEffects(const Robot& robot, EffectGroup group, Model* model) {
+  if (group == EffectGroup::kCompliance) {
+    model->nominal_chain = robot.chain();
+    model->masses = robot.masses();
+  }
   for (int j = 0; j < robot.joint_count(); ++j) {
     const JointType type = robot.joints()[j].type;
     const bool revolute = type == JointType::kRevolute;
@@ -65,6 +69,13 @@ void AddEffects(const Robot& robot, EffectGroup group, Model* model) {
       Add("temperature", EffectKind::kTemperature, j, 1,
           PerUnit(type, Unit::kRadianPerKelvin, Unit::kMetrePerKelvin), model);
   }
+}
+
+Eigen::VectorXd TorqueOf(const Model& model, const Eigen::VectorXd& q_chain,
+                         const Conditions& conditions) {
+  if (conditions.joint_torque.size() > 0 || model.masses.empty()) return conditions.joint_torque;
+  return model.joint_map.scale.transpose() *
+         GravityLoad(model.nominal_chain, model.masses, q_chain);
 }
 
 double Regressor(const JointEffect& effect, double q_j, const Conditions& conditions) {

@@ -7,7 +7,7 @@
 //   gain         q_j                  ratio
 //   cosine k     cos(k q_j)           rad or m; k = 1, 2: gear harmonics
 //   sine k       sin(k q_j)
-//   torque       torque of joint j    rad / (N m) or m / N: compliance
+//   torque       torque of joint j    rad / (N m) or m / N: compliance; measured, or of gravity
 //   temperature  temperature_K        rad / K or m / K: drift of the zero
 // Prismatic joints have no harmonics.
 #pragma once
@@ -41,6 +41,11 @@ const std::vector<EffectGroup>& AllEffectGroups();
 // Appends the group's effects of every joint: gain3; harmonic1_cos3, harmonic1_sin3; compliance3;
 // temperature3. A group is added at most once to a model.
 void AddEffects(const Robot& robot, EffectGroup group, Model* model);
+
+// Torques of the controller joints: as measured, else those of gravity on the model's masses; empty
+// where neither is known.
+Eigen::VectorXd TorqueOf(const Model& model, const Eigen::VectorXd& q_chain,
+                         const Conditions& conditions);
 
 // phi of one effect at controller joint value q_j.
 double Regressor(const JointEffect& effect, double q_j, const Conditions& conditions);

@@ -50,15 +50,31 @@ Eigen::VectorXd ControllerJoints(const Model& model, const double* q) {
       Eigen::Map<const Eigen::VectorXd>(q, model.joint_map.offset.size()));
 }
 
+// What the effects are functions of.
+struct EffectInputs {
+  Eigen::VectorXd q_controller;
+  Conditions conditions;
+};
+
+EffectInputs InputsOf(const Model& model, const double* q, const Conditions& conditions) {
+  EffectInputs inputs{ControllerJoints(model, q), conditions};
+  if (!model.masses.empty()) {
+    const Eigen::VectorXd q_chain =
+        Eigen::Map<const Eigen::VectorXd>(q, model.joint_map.offset.size());
+    inputs.conditions.joint_torque = TorqueOf(model, q_chain, conditions);
+  }
+  return inputs;
+}
+
 // Chain joints as moved by the effects.
 const double* MovedJoints(const Model& model, const double* q, const double* lambda,
                           const Conditions& conditions, Eigen::VectorXd* moved) {
   if (model.effects.empty()) return q;
-  const Eigen::VectorXd q_controller = ControllerJoints(model, q);
+  const auto [q_controller, given] = InputsOf(model, q, conditions);
   *moved = Eigen::Map<const Eigen::VectorXd>(q, q_controller.size());
   for (const JointEffect& effect : model.effects) {
     const double shift =
-        lambda[effect.parameter] * Regressor(effect, q_controller(effect.joint), conditions);
+        lambda[effect.parameter] * Regressor(effect, q_controller(effect.joint), given);
     *moved += model.joint_map.scale.col(effect.joint) * shift;
   }
   return moved->data();
@@ -77,11 +93,11 @@ void TiltColumns(const Model& model, const double* lambda, const Sweep& chain, M
 
 void EffectColumns(const Model& model, const double* q, const Conditions& conditions,
                    ModelSweep* sweep) {
-  const Eigen::VectorXd q_controller = ControllerJoints(model, q);
+  const auto [q_controller, given] = InputsOf(model, q, conditions);
   for (const JointEffect& effect : model.effects) {
     sweep->J_parameters.col(effect.parameter) =
         sweep->chain.J_joints * model.joint_map.scale.col(effect.joint) *
-        Regressor(effect, q_controller(effect.joint), conditions);
+        Regressor(effect, q_controller(effect.joint), given);
   }
 }
 

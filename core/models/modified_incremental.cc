@@ -1,95 +1,12 @@
-#include <numbers>
-#include <string>
-
-#include "absl/strings/str_cat.h"
-#include "core/models/model.h"
+#include "core/models/incremental_form.h"
 
 namespace truepose {
-namespace {
-
-constexpr double kQuarterTurn = std::numbers::pi / 2;
-
-// Builds the chain from base to flange; `link_` counts the links behind the last joint.
-class Builder {
- public:
-  Builder(const Robot& robot, ModelExtent extent, Model* model)
-      : robot_(robot), extent_(extent), model_(*model) {}
-
-  void Run() {
-    for (const ElementaryTransform& element : robot_.chain()) {
-      if (element.joint < 0) {
-        model_.chain.push_back(element);
-      } else {
-        AppendJoint(element);
-      }
-    }
-    if (extent_ == ModelExtent::kComplete) AppendGripperErrors();
-  }
-
- private:
-  void AppendJoint(ElementaryTransform element) {
-    const Axis axis = element.axis;
-    TurnZTo(axis, +1);
-    if (element.joint > 0 || extent_ == ModelExtent::kComplete) AppendAxisErrors(element.joint);
-    element.axis = Axis::kZ;
-    element.parameter = Add("dq", element.joint + 1, ParameterRole::kJointOffset,
-                            element.motion == Motion::kRotation);
-    model_.chain.push_back(element);
-    TurnZTo(axis, -1);
-  }
-
-  // The constant rotation that carries z to u (sign +1), or its inverse.
-  void TurnZTo(Axis u, int sign) {
-    if (u == Axis::kX) model_.chain.push_back(Rotation(Axis::kY, sign * kQuarterTurn));
-    if (u == Axis::kY) model_.chain.push_back(Rotation(Axis::kX, -sign * kQuarterTurn));
-  }
-
-  // B_i, the errors of the axis of joint i+1 (index i counts joints from 0).
-  void AppendAxisErrors(int i) {
-    AppendError("dalpha", i, Motion::kRotation, Axis::kX);
-    AppendError("dbeta", i, Motion::kRotation, Axis::kY);
-    if (robot_.joints()[i].type != JointType::kRevolute) return;
-    AppendError("da", i, Motion::kTranslation, Axis::kX);
-    AppendError("db", i, Motion::kTranslation, Axis::kY);
-  }
-
-  // C of Eq. 22.
-  void AppendGripperErrors() {
-    const int n = robot_.joint_count();
-    AppendError("dalpha", n, Motion::kRotation, Axis::kX);
-    AppendError("dbeta", n, Motion::kRotation, Axis::kY);
-    AppendError("dgamma", n, Motion::kRotation, Axis::kZ);
-    AppendError("da", n, Motion::kTranslation, Axis::kX);
-    AppendError("db", n, Motion::kTranslation, Axis::kY);
-    AppendError("dc", n, Motion::kTranslation, Axis::kZ);
-  }
-
-  void AppendError(const std::string& stem, int link, Motion motion, Axis axis) {
-    const bool angle = motion == Motion::kRotation;
-    const int parameter =
-        Add(stem, link, angle ? ParameterRole::kAngle : ParameterRole::kLength, angle);
-    model_.chain.push_back({motion, axis, 0.0, -1, parameter});
-  }
-
-  int Add(const std::string& stem, int link, ParameterRole role, bool is_angle) {
-    return model_.parameters.Add({absl::StrCat(stem, link), ParameterGroup::kInternal, role,
-                                  is_angle ? Unit::kRadian : Unit::kMetre});
-  }
-
-  const Robot& robot_;
-  const ModelExtent extent_;
-  Model& model_;
-};
-
-}  // namespace
 
 Model ModifiedIncremental(const Robot& robot, ModelExtent extent) {
-  Model model;
+  Model model = BuildIncremental(robot, extent, {AxisErrors::kRotationsFirst, true});
   model.kind = "modified_incremental";
   model.convention =
       "modified_incremental/1: B = Rx(dalpha) Ry(dbeta) Tx(da) Ty(db), D = Rz|Tz(dq)";
-  model.joint_map = robot.joint_map();
-  Builder(robot, extent, &model).Run();
   return model;
 }
 

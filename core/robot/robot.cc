@@ -69,6 +69,15 @@ void CheckMap(const JointMap& map, int joints, FaultList* faults) {
   }
 }
 
+void CheckMasses(const std::vector<LinkMass>& masses, int joints, FaultList* faults) {
+  for (size_t i = 0; i < masses.size(); ++i) {
+    if (masses[i].joint < 0 || masses[i].joint >= joints) {
+      faults->Add(absl::StrCat("masses[", i, "].joint"), absl::StrCat(masses[i].joint),
+                  absl::StrCat("a joint from 0 to ", joints - 1));
+    }
+  }
+}
+
 // Axes in B with all joints at zero: only rotations between two prismatic joints decide, and there
 // are none that move.
 void CheckParallelPrismatic(const Chain& chain, const std::vector<Joint>& joints,
@@ -100,17 +109,22 @@ Eigen::VectorXd JointMap::ToController(const Eigen::VectorXd& q_chain) const {
   return scale.partialPivLu().solve(q_chain - offset);
 }
 
-Robot::Robot(std::vector<Joint> joints, Chain chain, JointMap map)
-    : joints_(std::move(joints)), chain_(std::move(chain)), map_(std::move(map)) {}
+Robot::Robot(std::vector<Joint> joints, Chain chain, JointMap map, std::vector<LinkMass> masses)
+    : joints_(std::move(joints)),
+      chain_(std::move(chain)),
+      map_(std::move(map)),
+      masses_(std::move(masses)) {}
 
-absl::StatusOr<Robot> Robot::Create(std::vector<Joint> joints, Chain chain, JointMap map) {
+absl::StatusOr<Robot> Robot::Create(std::vector<Joint> joints, Chain chain, JointMap map,
+                                    std::vector<LinkMass> masses) {
   FaultList faults;
   CheckJoints(joints, &faults);
   CheckChain(chain, joints, &faults);
   CheckMap(map, static_cast<int>(joints.size()), &faults);
+  CheckMasses(masses, static_cast<int>(joints.size()), &faults);
   if (faults.empty()) CheckParallelPrismatic(chain, joints, &faults);
   if (!faults.empty()) return faults.ToStatus();
-  return Robot(std::move(joints), std::move(chain), std::move(map));
+  return Robot(std::move(joints), std::move(chain), std::move(map), std::move(masses));
 }
 
 Eigen::VectorXd Robot::MiddleOfLimits() const {

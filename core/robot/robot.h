@@ -9,6 +9,7 @@
 
 #include "absl/status/statusor.h"
 #include "core/chain/chain.h"
+#include "core/robot/gravity.h"
 
 namespace truepose {
 
@@ -46,22 +47,26 @@ class Robot {
   //   or of the wrong kind, a map of the wrong size or not invertible, values that are not finite,
   //   limits in the wrong order, two consecutive prismatic joints that are parallel (they are one
   //   joint twice, chapter-notes 7).
-  static absl::StatusOr<Robot> Create(std::vector<Joint> joints, Chain chain, JointMap map);
+  static absl::StatusOr<Robot> Create(std::vector<Joint> joints, Chain chain, JointMap map,
+                                      std::vector<LinkMass> masses = {});
 
   int joint_count() const { return static_cast<int>(joints_.size()); }
   const std::vector<Joint>& joints() const { return joints_; }
   const Chain& chain() const { return chain_; }
   const JointMap& joint_map() const { return map_; }
+  // Empty where they are not known.
+  const std::vector<LinkMass>& masses() const { return masses_; }
   // The middle of the joint's limits; where one is missing the value nearest to 0. Controller
   // joints.
   Eigen::VectorXd MiddleOfLimits() const;
 
  private:
-  Robot(std::vector<Joint> joints, Chain chain, JointMap map);
+  Robot(std::vector<Joint> joints, Chain chain, JointMap map, std::vector<LinkMass> masses);
 
   std::vector<Joint> joints_;
   Chain chain_;
   JointMap map_;
+  std::vector<LinkMass> masses_;
 };
 
 // X_BF at controller joints q, nominal geometry.

@@ -11,8 +11,8 @@ _CORE_ORDER = (
     ("core/robot",),
     ("core/parameters",),
     ("core/models", "core/measurement"),
-    ("core/identification", "core/compensation"),
-    ("core/assessment", "core/planning"),  # docs/decisions/0004
+    ("core/identification", "core/compensation", "core/export"),
+    ("core/assessment", "core/planning", "core/conversion"),  # docs/decisions/0004
     ("core/calibrate", "core/simulation"),
 )
 
@@ -29,7 +29,7 @@ def _core_rows():
 # Folder -> what it may use besides itself.
 ALLOWED = {
     **_core_rows(),
-    "formats": ("core/base", "proto", "yaml", "json", "io"),
+    "formats": ("core/base", "proto", "yaml", "json", "urdf", "io"),
     "convert": ("core", "proto", "openssl", "io"),
     "server/store": ("core/base", "proto", "sqlite", "openssl", "io"),
     "server/jobs": ("core/base", "convert", "server/store", "proto", "io", "spdlog"),
@@ -42,7 +42,7 @@ ALLOWED = {
     "client/cli": ("core", "formats", "convert", "client", "proto", "grpc", "io", "cli11", "json", "openssl"),
     "client": ("core/base", "proto", "grpc", "io", "openssl"),
     "tests": ("core", "formats", "convert", "server", "client", "bench", "proto", "grpc", "sqlite", "yaml",
-              "json", "openssl", "spdlog", "cli11", "io"),
+              "json", "urdf", "openssl", "spdlog", "cli11", "io"),
     "bench": ("core", "formats", "convert", "server", "client", "tests", "proto", "grpc", "json", "io"),
 }
 
@@ -56,6 +56,7 @@ EXTERNAL_HEADERS = {
     "sqlite": ("sqlite3",),
     "yaml": ("yaml-cpp/",),
     "json": ("nlohmann/",),
+    "urdf": ("urdf_", "console_bridge/"),
     "openssl": ("openssl/",),
     "spdlog": ("spdlog/",),
     "cli11": ("CLI/",),
@@ -70,6 +71,7 @@ EXTERNAL_TARGETS = {
     "sqlite": ("sqlite",),
     "yaml": ("yaml-cpp",),
     "json": ("nlohmann",),
+    "urdf": ("urdfdom", "console_bridge"),
     "openssl": ("openssl",),
     "spdlog": ("spdlog",),
     "cli11": ("cli11",),

@@ -2,6 +2,7 @@
 // written reads back. Catches: a crash, an abort, an endless loop, an error without a fault; under
 // sanitizers every bad access.
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "core/base/fault.h"
@@ -9,6 +10,8 @@
 #include "formats/robot_file.h"
 #include "formats/session_file.h"
 #include "formats/targets_file.h"
+#include "formats/ur_calibration.h"
+#include "formats/urdf.h"
 #include "gtest/gtest.h"
 #include "tests/formats/samples.h"
 
@@ -52,6 +55,25 @@ constexpr char kFixture[] =
 constexpr char kDh[] =
     "robot: r\njoints: [{name: a, type: revolute}]\n"
     "geometry: {standard_dh: [{theta_deg: 0, d_mm: 1, a_mm: 0, alpha_deg: 90}]}\n";
+
+constexpr char kUrdf[] =
+    "<?xml version='1.0'?>\n<robot name=\"r\"><!-- <a> -->\n"
+    "<link name=\"a\"/><link name=\"b\"><inertial><origin xyz=\"0 0 1\"/><mass value=\"2\"/>"
+    "<inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" izz=\"1\"/></inertial></link>"
+    "<link name=\"c\"/>\n<joint name=\"i\" type=\"revolute\"><parent link=\"a\"/><child "
+    "link=\"b\"/>"
+    "<origin xyz=\"1 2 3\" rpy=\"0.1 1.5707963 0\"/><axis xyz=\"0 0.6 0.8\"/>"
+    "<limit lower=\"-1\" upper=\"1\" effort=\"1\" velocity=\"1\"/></joint>\n"
+    "<joint name=\"j\" type=\"continuous\"><parent link=\"b\"/><child "
+    "link=\"c\"/></joint></robot>\n";
+
+constexpr char kUrCalibration[] =
+    "kinematics:\n  shoulder: &s {x: 0, y: 0, z: 0.1, roll: 0, pitch: 0, yaw: 0}\n"
+    "  upper_arm: {x: 0, y: 0, z: 0, roll: 1.57, pitch: 0, yaw: 0}\n"
+    "  forearm: {x: -0.6, y: 0, z: 0, roll: 0, pitch: 0, yaw: 0}\n"
+    "  wrist_1: {x: -0.5, y: 0, z: 0.1, roll: 0, pitch: 0, yaw: 0}\n"
+    "  wrist_2: {x: 0, y: -0.1, z: 0, roll: 1.57, pitch: 0, yaw: 0}\n"
+    "  wrist_3: {x: 0, y: 0.09, z: 0, roll: -1.57, pitch: 0, yaw: 0}\n  hash: calib_1\n";
 
 // Damages a text at one to four places: bytes changed, put in, taken out; pieces doubled, moved or
 // cut off.
@@ -212,6 +234,39 @@ TEST(MutationTest, Robots) { CheckRobots(kRobot, 3, kCases); }
 
 TEST(MutationTest, DhTables) { CheckRobots(kDh, 4, kCases); }
 
+// What is read is a chain of finite numbers: also catches an end of the process in the XML library.
+TEST(MutationTest, Urdf) {
+  ASSERT_TRUE(ParseUrdf(kUrdf, "r.urdf", {}).ok());
+  Mutator mutator(6);
+  int read = 0;
+  for (int i = 0; i < kCases && !HasFailure(); ++i) {
+    const std::string text = mutator.Damage(kUrdf);
+    const auto result = ParseUrdf(text, "r.urdf", {});
+    if (!IsValueOrFaults(result, text)) continue;
+    ++read;
+    for (const auto& element : result->nominal.geometry().chain().elements())
+      ASSERT_TRUE(std::isfinite(element.constant())) << text;
+  }
+  EXPECT_GT(read, kCases / 50);
+  EXPECT_LT(read, kCases * 3 / 4);
+}
+
+TEST(MutationTest, UrCalibrations) {
+  ASSERT_TRUE(ParseUrCalibration(kUrCalibration, "ur.yaml").ok());
+  Mutator mutator(7);
+  int read = 0;
+  for (int i = 0; i < kCases && !HasFailure(); ++i) {
+    const std::string text = mutator.Damage(kUrCalibration);
+    const auto result = ParseUrCalibration(text, "ur.yaml");
+    if (!IsValueOrFaults(result, text)) continue;
+    ++read;
+    const auto again = ParseUrCalibration(ValueOf(WriteUrCalibration(*result)), "ur.yaml");
+    ASSERT_TRUE(again.ok()) << text << again.status();
+  }
+  EXPECT_GT(read, kCases / 100);
+  EXPECT_LT(read, kCases * 3 / 4);
+}
+
 // Bytes without any form, short and long.
 TEST(MutationTest, Noise) {
   std::mt19937_64 random(5);
@@ -221,6 +276,7 @@ TEST(MutationTest, Noise) {
     for (char& c : text) c = static_cast<char>(i % 2 == 0 ? random() : 32 + random() % 95);
     IsValueOrFaults(ParseRobotFile(text, "r.yaml"), text);
     IsValueOrFaults(ParseFixtureFile(text, "f.yaml"), text);
+    IsValueOrFaults(ParseUrdf(text, "r.urdf", {}), text);
     IsValueOrFaults(ParseSessionFile(text, "s.csv", robot), text);
     IsValueOrFaults(ParseTargetsFile(text, "t.csv", robot), text);
   }

@@ -1,4 +1,4 @@
-// truepose calibration list|show
+// truepose calibration list|show; export is a file of its own
 #include <memory>
 
 #include "absl/strings/str_cat.h"
@@ -135,6 +135,7 @@ void AddCalibration(const Command& root) {
           "  truepose calibration show ur10#1 --output ur10.calibration.json")
       .Run(Command::Reach::kRemote,
            [=](const Invocation& invocation) { return Show(invocation, *name, *output); });
+  AddCalibrationExport(calibration);
 }
 
 }  // namespace truepose::cli

@@ -9,6 +9,7 @@ void AddAllCommands(const Command& root);
 
 void AddServe(const Command& root);
 void AddRobot(const Command& root);
+void AddRobotExport(const Command& robot);
 void AddSession(const Command& root);
 void AddSessionImport(const Command& session);
 void AddCalibrate(const Command& root);
@@ -16,6 +17,7 @@ void AddEvaluate(const Command& root);
 void AddCompensate(const Command& root);
 void AddJob(const Command& root);
 void AddCalibration(const Command& root);
+void AddCalibrationExport(const Command& calibration);
 void AddSimulate(const Command& root);
 void AddVersion(const Command& root);
 

@@ -25,6 +25,7 @@ namespace {
 struct Options {
   bool local = false;
   std::string targets, calibration, robot, tool, output;
+  formats::UrdfEnds ends;
 };
 
 bool AnyHasJoints(const v1::CompensateResponse& response) {
@@ -142,7 +143,7 @@ absl::StatusOr<std::optional<OutputFile>> OpenOutput(const std::string& path) {
 
 absl::Status CompensateLocally(const Invocation& invocation, const Options& options) {
   if (options.robot.empty()) return UsageError("--local needs --robot FILE");
-  TRUEPOSE_ASSIGN_OR_RETURN(const formats::RobotFile robot, LoadRobot(options.robot));
+  TRUEPOSE_ASSIGN_OR_RETURN(const formats::RobotFile robot, LoadRobot(options.robot, options.ends));
   TRUEPOSE_ASSIGN_OR_RETURN(const v1::Calibration calibration,
                             LoadCalibration(options.calibration));
   TRUEPOSE_RETURN_IF_ERROR(CheckBelongsTogether(calibration, robot.nominal, options.robot));
@@ -182,6 +183,8 @@ void AddCompensate(const Command& root) {
       .Required("--calibration", "NAME|FILE", &options->calibration,
                 "Such as ur10#1; with --local a file")
       .Option("--robot", "FILE", &options->robot, "With --local: the robot file")
+      .Option("--urdf-base", "LINK", &options->ends.base, kUrdfBaseHelp)
+      .Option("--urdf-tip", "LINK", &options->ends.tip, kUrdfTipHelp)
       .Option("--tool", "NAME", &options->tool,
               "Tool of the robot file for pose targets; default: the flange")
       .Option("--output", "FILE", &options->output,

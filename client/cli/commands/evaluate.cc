@@ -25,6 +25,7 @@ constexpr char kHint[] =
 struct Options {
   bool local = false;
   std::string calibration, session, robot, observe, euler;
+  formats::UrdfEnds ends;
 };
 
 std::string EvaluationText(const v1::Evaluation& evaluation, bool utf8) {
@@ -60,7 +61,7 @@ void WarnOfOwnSession(const v1::Calibration& calibration, const std::string& ses
 absl::Status EvaluateLocally(const Invocation& invocation, const Options& options,
                              v1::Observe observe) {
   if (options.robot.empty()) return UsageError("--local needs --robot FILE");
-  TRUEPOSE_ASSIGN_OR_RETURN(const formats::RobotFile robot, LoadRobot(options.robot));
+  TRUEPOSE_ASSIGN_OR_RETURN(const formats::RobotFile robot, LoadRobot(options.robot, options.ends));
   TRUEPOSE_ASSIGN_OR_RETURN(v1::Calibration calibration, LoadCalibration(options.calibration));
   TRUEPOSE_RETURN_IF_ERROR(CheckBelongsTogether(calibration, robot.nominal, options.robot));
   TRUEPOSE_ASSIGN_OR_RETURN(
@@ -107,6 +108,8 @@ void AddEvaluate(const Command& root) {
       .Required("--session", "UUID|FILE", &options->session,
                 "A sealed session; with --local a session file")
       .Option("--robot", "FILE", &options->robot, "With --local: the robot file")
+      .Option("--urdf-base", "LINK", &options->ends.base, kUrdfBaseHelp)
+      .Option("--urdf-tip", "LINK", &options->ends.tip, kUrdfTipHelp)
       .Option("--observe", "KIND", &options->observe,
               "Use only the pose, point or point_axis; default: all there is")
       .Option("--euler", "CONVENTION", &options->euler,

@@ -1,4 +1,4 @@
-// truepose robot add|list|show
+// truepose robot add|list|show; export is a file of its own
 #include <cmath>
 #include <numbers>
 
@@ -25,6 +25,7 @@ constexpr char kOtherContentHint[] =
 struct AddOptions {
   std::string file;
   std::string name;
+  formats::UrdfEnds ends;
   bool new_revision = false;
 };
 
@@ -60,7 +61,7 @@ std::string AddedText(const v1::Robot& robot) {
 }
 
 absl::Status Add(const Invocation& invocation, const AddOptions& options) {
-  TRUEPOSE_ASSIGN_OR_RETURN(const formats::RobotFile file, LoadRobot(options.file));
+  TRUEPOSE_ASSIGN_OR_RETURN(const formats::RobotFile file, LoadRobot(options.file, options.ends));
   const std::string id = options.name.empty() ? file.robot_id : ShortName(options.name);
   return WithServer(invocation, kRobotHint, [&](const client::Client& client) -> absl::Status {
     const auto add = options.new_revision ? AddRevision : CreateRobot;
@@ -169,14 +170,17 @@ absl::Status Show(const Invocation& invocation, const std::string& name) {
 void AddAdd(const Command& robot) {
   const auto options = std::make_shared<AddOptions>();
   robot.Add("add", "Register the robot of a file")
-      .Required("FILE", "", &options->file, "Robot file (YAML, docs/formats.md)")
+      .Required("FILE", "", &options->file, "Robot file (YAML or URDF, docs/formats.md)")
       .Option("--name", "NAME", &options->name, "Name on the server; default: the file's `robot`")
       .Option("--new-revision", "", &options->new_revision,
               "Add the file as next nominal of a robot that is there")
+      .Option("--urdf-base", "LINK", &options->ends.base, kUrdfBaseHelp)
+      .Option("--urdf-tip", "LINK", &options->ends.tip, kUrdfTipHelp)
       .Footer(
           "Examples:\n  truepose robot add deploy/examples/ur10.yaml\n"
           "  truepose robot add ur10.yaml --name ur10-07\n"
-          "  truepose robot add ur10.yaml --new-revision")
+          "  truepose robot add ur10.yaml --new-revision\n"
+          "  truepose robot add ur10.urdf --urdf-tip tool0")
       .Run(Command::Reach::kRemote,
            [options](const Invocation& invocation) { return Add(invocation, *options); });
 }
@@ -196,6 +200,7 @@ void AddRobot(const Command& root) {
       .Footer("Example:\n  truepose robot show ur10")
       .Run(Command::Reach::kRemote,
            [name](const Invocation& invocation) { return Show(invocation, *name); });
+  AddRobotExport(robot);
 }
 
 }  // namespace truepose::cli

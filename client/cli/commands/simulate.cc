@@ -34,6 +34,7 @@ struct Options {
   double noise_deg = 0.006;
   double joint_noise_deg = 0.0;
   double encoder_resolution_deg = 0.0;
+  formats::UrdfEnds ends;
 };
 
 convert::SimulationOptions InSiUnits(const Options& options) {
@@ -65,7 +66,7 @@ absl::StatusOr<v1::Nominal> RobotToSimulate(const Options& options) {
     return UsageError("simulate needs a robot: either FILE or --measuring-robot");
   }
   if (options.measuring_robot) return convert::MeasuringRobot();
-  TRUEPOSE_ASSIGN_OR_RETURN(formats::RobotFile file, LoadRobot(options.robot));
+  TRUEPOSE_ASSIGN_OR_RETURN(formats::RobotFile file, LoadRobot(options.robot, options.ends));
   return std::move(file.nominal);
 }
 
@@ -151,7 +152,8 @@ void AddSimulate(const Command& root) {
       .Option("--measuring-robot", "", &options->measuring_robot,
               "The built-in measuring arm of five joints");
   AddFigures(simulate, options.get());
-  simulate
+  simulate.Option("--urdf-base", "LINK", &options->ends.base, kUrdfBaseHelp)
+      .Option("--urdf-tip", "LINK", &options->ends.tip, kUrdfTipHelp)
       .Option("--output", "FILE", &options->output, "The session as CSV; default: standard output")
       .Option("--truth", "FILE", &options->truth,
               "Also write the errors that were drawn, as a calibration in JSON")

@@ -134,5 +134,18 @@ TEST(RelationText, NamesFrames) {
             std::string::npos);
 }
 
+// The partner that stays stands first; a coefficient other than one is no equality of names.
+TEST(DroppedText, SaysWhichOfTwoWent) {
+  const ParameterSet names = Names({Length("dh2"), Length("dh3"), Base("base.x")});
+  const NullRelation alike{1, {{0, 1 - 1e-13}}, false, true};
+  EXPECT_EQ(DroppedText(alike, names), "dh2 = dh3: dropped dh3");
+  EXPECT_EQ(ReasonText(alike, names), "dh2 = dh3: dropped dh3, at any poses");
+  EXPECT_EQ(RelationText(alike, names), "dh3 = +1 dh2");
+  EXPECT_EQ(DroppedText({1, {{0, -1}}, false, true}, names), "dh3 = -1 dh2: dropped dh3");
+  EXPECT_EQ(DroppedText({1, {{2, 1}}, false, true}, names),
+            "dh3 = a motion of the base frame: dropped dh3");
+  EXPECT_EQ(DroppedText({1, {}, false, true}, names), "dh3 = no effect: dropped dh3");
+}
+
 }  // namespace
 }  // namespace truepose

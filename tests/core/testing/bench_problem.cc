@@ -1,30 +1,10 @@
 #include "tests/core/testing/bench_problem.h"
 
-#include <cstdlib>
-#include <fstream>
-#include <sstream>
-#include <stdexcept>
-
 #include "tests/core/testing/robots.h"
+#include "tests/core/testing/table.h"
 
 namespace truepose::testing {
 namespace {
-
-std::vector<std::vector<double>> ReadTable(const std::string& path) {
-  std::ifstream file(path);
-  if (!file)
-    throw std::runtime_error("can't read " + path +
-                             "; TRUEPOSE_SHARED names the folder of the measured data");
-  std::string line, cell;
-  std::getline(file, line);
-  std::vector<std::vector<double>> rows;
-  while (std::getline(file, line)) {
-    std::stringstream cells(line);
-    rows.emplace_back();
-    while (std::getline(cells, cell, ',')) rows.back().push_back(std::stod(cell));
-  }
-  return rows;
-}
 
 // Values of one column of *_params.csv: base 4, then theta d a alpha beta a joint, then tool 6.
 struct Parameters {
@@ -75,12 +55,6 @@ Reading ReadingOf(const std::vector<double>& row, int joints, ObservationKind ki
 }
 
 }  // namespace
-
-std::string SharedFolder() {
-  const char* folder = std::getenv("TRUEPOSE_SHARED");
-  if (folder == nullptr) throw std::runtime_error("TRUEPOSE_SHARED is not set");
-  return folder;
-}
 
 BenchProblem LoadBench(const std::string& name, int poses, ObservationKind kind) {
   const int joints = name == "arm5" ? 5 : 6;

@@ -7,11 +7,9 @@
 #include "core/chain/chain.h"
 #include "core/measurement/reading.h"
 #include "core/robot/robot.h"
+#include "tests/core/testing/table.h"
 
 namespace truepose::testing {
-
-// Folder with data/ and bench/, from the environment; a test that needs it fails without it.
-std::string SharedFolder();
 
 struct BenchProblem {
   Robot robot;  // nominal, without base and tool

@@ -1,0 +1,226 @@
+#include "core/calibrate/effect_choice.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "core/base/random.h"
+#include "core/identification/prior.h"
+
+namespace truepose {
+namespace {
+
+// Readings of one row of a session belong together: they share its joints.
+std::vector<int> UnitsOf(const Problem& problem) {
+  std::map<int, int> unit_of_id;
+  std::vector<int> units;
+  for (const Reading& reading : problem.readings)
+    units.push_back(
+        unit_of_id.emplace(reading.id, static_cast<int>(unit_of_id.size())).first->second);
+  return units;
+}
+
+std::vector<int> FoldOfUnits(int units, const EffectChoiceOptions& options) {
+  std::vector<int> folds(units);
+  for (int i = 0; i < units; ++i) folds[i] = i % options.folds;
+  Random random(options.seed);
+  for (int i = units - 1; i > 0; --i)
+    std::swap(folds[i], folds[random.Below(static_cast<uint64_t>(i) + 1)]);
+  return folds;
+}
+
+// The linearised problem of all candidates, effects included, with a fold for each row.
+class Linearised {
+ public:
+  Linearised(const Problem& problem, const Estimate& estimate, const ModelError& error,
+             const EffectChoiceOptions& options)
+      : system_(Whitened(problem, estimate, error)), names_(Candidates(problem)) {
+    const std::vector<int> units = UnitsOf(problem);
+    units_ = units.empty() ? 0 : 1 + *std::max_element(units.begin(), units.end());
+    const std::vector<int> fold_of_unit = FoldOfUnits(units_, options);
+    for (size_t i = 0; i < problem.readings.size(); ++i) {
+      for (int row = 0; row < RowsOf(problem.readings[i]); ++row) {
+        unit_.push_back(units[i]);
+        fold_.push_back(fold_of_unit[units[i]]);
+      }
+    }
+    folds_ = options.folds;
+  }
+
+  int units() const { return units_; }
+
+  // Of `columns`, those that are independent.
+  std::vector<int> Independent(const std::vector<int>& columns) const {
+    ParameterSet names;
+    for (int column : columns) names.Add(names_[column]);
+    IdentifiabilityOptions options;
+    options.use_sd_bounds = false;
+    std::vector<int> kept;
+    for (int index : Identifiable(system_.J(Eigen::all, columns), names, options).active)
+      kept.push_back(columns[index]);
+    return kept;
+  }
+
+  // Squared held-out residual of each unit when `columns` are fitted on the other folds.
+  std::vector<double> HeldOut(const std::vector<int>& columns) const {
+    const Eigen::MatrixXd J = Scaled(columns);
+    const Eigen::MatrixXd all = J.transpose() * J;
+    const Eigen::VectorXd right = J.transpose() * system_.r;
+    std::vector<double> squares(units_, 0);
+    for (int fold = 0; fold < folds_; ++fold) {
+      const std::vector<int> rows = RowsOfFold(fold);
+      const Eigen::MatrixXd J_out = J(rows, Eigen::all);
+      const Eigen::VectorXd r_out = system_.r(rows);
+      const Eigen::VectorXd x =
+          (all - J_out.transpose() * J_out).ldlt().solve(right - J_out.transpose() * r_out);
+      const Eigen::VectorXd left = r_out - J_out * x;
+      for (size_t i = 0; i < rows.size(); ++i) {
+        const double residual = left(static_cast<Eigen::Index>(i));
+        squares[unit_[rows[i]]] += residual * residual;
+      }
+    }
+    return squares;
+  }
+
+  // Weighted RMS of a row when `columns` are fitted to all.
+  double FittedRms(const std::vector<int>& columns) const {
+    const Eigen::MatrixXd J = Scaled(columns);
+    const Eigen::VectorXd left = system_.r - J * J.householderQr().solve(system_.r);
+    const auto readings = static_cast<Eigen::Index>(unit_.size());  // rows of the prior come last
+    return std::sqrt(left.head(readings).squaredNorm() / static_cast<double>(readings));
+  }
+
+  double Rms(const std::vector<double>& squares) const {
+    return std::sqrt(std::accumulate(squares.begin(), squares.end(), 0.0) /
+                     static_cast<double>(unit_.size()));
+  }
+
+ private:
+  // The columns, each of norm 1: their units don't matter here, nor does their sign.
+  Eigen::MatrixXd Scaled(const std::vector<int>& columns) const {
+    Eigen::MatrixXd J = system_.J(Eigen::all, columns);
+    J.colwise().normalize();
+    return J;
+  }
+
+  std::vector<int> RowsOfFold(int fold) const {
+    std::vector<int> rows;
+    for (size_t row = 0; row < fold_.size(); ++row)
+      if (fold_[row] == fold) rows.push_back(static_cast<int>(row));
+    return rows;
+  }
+
+  WhitenedSystem system_;
+  ParameterSet names_;
+  std::vector<int> unit_, fold_;  // of each row
+  int units_ = 0, folds_ = 0;
+};
+
+// Mean and standard error of the drop from one list of squares to another.
+struct Drop {
+  double mean, standard_error;
+};
+
+Drop DropOf(const std::vector<double>& from, const std::vector<double>& to) {
+  const double n = static_cast<double>(from.size());
+  double sum = 0, squares = 0;
+  for (size_t i = 0; i < from.size(); ++i) sum += from[i] - to[i];
+  const double mean = sum / n;
+  for (size_t i = 0; i < from.size(); ++i)
+    squares += (from[i] - to[i] - mean) * (from[i] - to[i] - mean);
+  return {mean, std::sqrt(squares / (n * std::max(n - 1, 1.0)))};
+}
+
+std::vector<int> ColumnsOfGroup(const Problem& problem, const Robot& robot, EffectGroup group,
+                                const Model& geometric) {
+  Model alone = geometric;
+  AddEffects(robot, group, &alone);
+  const ParameterSet all = Candidates(problem);
+  std::vector<int> columns;
+  for (int i = geometric.parameters.size(); i < alone.parameters.size(); ++i)
+    columns.push_back(*all.Find(alone.parameters[i].name));
+  return columns;
+}
+
+std::vector<int> Joined(std::vector<int> a, const std::vector<int>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+struct Candidate {
+  EffectGroup group;
+  std::vector<int> columns;
+};
+
+// Looks at every group left and takes the best one if it is entitled. @returns whether one was.
+bool TakeOne(const Linearised& system, double readings_per_parameter, std::vector<int>* columns,
+             std::vector<Candidate>* left, EffectChoice* choice) {
+  const std::vector<double> now = system.HeldOut(*columns);
+  size_t best = left->size();
+  double best_mean = 0;
+  std::vector<int> best_columns;
+  for (size_t i = 0; i < left->size(); ++i) {
+    const std::vector<int> wider = system.Independent(Joined(*columns, (*left)[i].columns));
+    if (system.units() < readings_per_parameter * static_cast<double>(wider.size())) continue;
+    const std::vector<double> then = system.HeldOut(wider);
+    choice->path.push_back({Name((*left)[i].group), static_cast<int>(wider.size()),
+                            system.FittedRms(wider), system.Rms(then), false});
+    const auto [mean, standard_error] = DropOf(now, then);
+    if (mean <= standard_error || mean <= best_mean) continue;
+    best = i, best_mean = mean, best_columns = wider;
+  }
+  if (best == left->size()) return false;
+  const std::string name = Name((*left)[best].group);
+  for (auto step = choice->path.rbegin(); step != choice->path.rend(); ++step) {
+    if (step->added != name) continue;
+    step->taken = true;
+    break;
+  }
+  choice->groups.push_back((*left)[best].group);
+  *columns = best_columns;
+  left->erase(left->begin() + static_cast<std::ptrdiff_t>(best));
+  return true;
+}
+
+}  // namespace
+
+std::vector<EffectGroup> AvailableEffects(const Robot& robot, const Problem& problem) {
+  std::vector<EffectGroup> groups = {EffectGroup::kGain, EffectGroup::kHarmonic1,
+                                     EffectGroup::kHarmonic2};
+  bool torque = true, temperature = false;
+  for (const Reading& reading : problem.readings) {
+    torque = torque && reading.conditions.joint_torque.size() > 0;
+    temperature = temperature ||
+                  reading.conditions.temperature_K != problem.readings[0].conditions.temperature_K;
+  }
+  if (torque || !robot.masses().empty()) groups.push_back(EffectGroup::kCompliance);
+  if (temperature) groups.push_back(EffectGroup::kTemperature);
+  return groups;
+}
+
+EffectChoice ChooseEffects(const Robot& robot, const Problem& problem,
+                           const Identification& geometric, const EffectChoiceOptions& options) {
+  Model wide = *problem.model;
+  for (EffectGroup group : AvailableEffects(robot, problem)) AddEffects(robot, group, &wide);
+  Problem with_effects = problem;
+  with_effects.model = &wide;
+  with_effects.prior = NoPrior(wide.parameters);
+  AddEffectPrior(wide.parameters, &*with_effects.prior);
+  Estimate estimate = geometric.estimate;
+  estimate.lambda.conservativeResizeLike(Eigen::VectorXd::Zero(wide.parameters.size()));
+  const Linearised system(with_effects, estimate, geometric.model_error, options);
+  std::vector<Candidate> left;
+  for (EffectGroup group : AvailableEffects(robot, problem))
+    left.push_back({group, ColumnsOfGroup(with_effects, robot, group, *problem.model)});
+  std::vector<int> columns = geometric.set.active;
+  EffectChoice choice;
+  choice.path.push_back({"", static_cast<int>(columns.size()), system.FittedRms(columns),
+                         system.Rms(system.HeldOut(columns)), true});
+  while (TakeOne(system, options.readings_per_parameter, &columns, &left, &choice)) {
+  }
+  return choice;
+}
+
+}  // namespace truepose
