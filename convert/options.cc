@@ -92,7 +92,7 @@ void ReadEffects(const std::string& text, CalibrateOptions* options, FaultList* 
     return;
   }
   options->effects = EffectsMode::kListed;
-  for (const std::string& word : absl::StrSplit(text, ',', absl::SkipWhitespace())) {
+  for (absl::string_view word : absl::StrSplit(text, ',', absl::SkipWhitespace())) {
     const std::string name(absl::StripAsciiWhitespace(word));
     FaultList unknown;
     const EffectGroup group = Named(name, Effects(), "options.effects", &unknown);

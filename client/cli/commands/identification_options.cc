@@ -47,7 +47,7 @@ absl::Status WritePrior(const std::string& text, const FetchCalibration& fetch,
 
 absl::Status WriteJointSd(const std::string& text, v1::CalibrationOptions* message) {
   FaultList faults;
-  for (const std::string& word : absl::StrSplit(text, ',', absl::SkipWhitespace())) {
+  for (absl::string_view word : absl::StrSplit(text, ',', absl::SkipWhitespace())) {
     double degrees = 0;
     if (!absl::SimpleAtod(word, &degrees))
       faults.Add("--joint-sd-deg", absl::StrCat("'", word, "'"), "numbers with commas, degrees");
