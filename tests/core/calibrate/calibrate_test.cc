@@ -239,17 +239,20 @@ TEST(Evaluate, AnotherSessionOfTheSameRobot) {
   const Pose moved{ExpRotation<double>({0.5, -0.2, 1.3}), {1, -2, 0.5}},
       other{ExpRotation<double>({1, 0, 0}), {0.1, 0, 0.05}};
   for (Reading& reading : second.readings) reading.X_MT = moved * reading.X_MT * other;
-  const auto evaluation = Evaluate(second, result.model, result.identification.estimate.lambda, {}, {});
+  const auto evaluation =
+      Evaluate(second, result.model, result.identification.estimate.lambda, {}, {});
   ASSERT_TRUE(evaluation.ok()) << evaluation.status();
   EXPECT_EQ(evaluation->set.after.size(), 80u);
   EXPECT_LT(PoseStatisticsOf(evaluation->set.after).position_m.rms, 3e-4);
   EXPECT_GT(PoseStatisticsOf(evaluation->set.before).position_m.rms, 8e-4);
   second.readings.resize(1);
-  EXPECT_EQ(Evaluate(second, result.model, result.identification.estimate.lambda, {}, {}).status().code(),
-            absl::StatusCode::kFailedPrecondition);
+  EXPECT_EQ(
+      Evaluate(second, result.model, result.identification.estimate.lambda, {}, {}).status().code(),
+      absl::StatusCode::kFailedPrecondition);
   second.readings.clear();
-  EXPECT_EQ(Evaluate(second, result.model, result.identification.estimate.lambda, {}, {}).status().code(),
-            absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(
+      Evaluate(second, result.model, result.identification.estimate.lambda, {}, {}).status().code(),
+      absl::StatusCode::kInvalidArgument);
 }
 
 // A coupled robot: joint 3 of the chain is J2 + J3 of the controller.

@@ -32,8 +32,7 @@ TEST(Table3, FindsWhatTheChapterPrints) {
 TEST(Table3, ExtendedDhHasItsTwoRedundancies) {
   const auto columns = Table3();
   ASSERT_TRUE(columns.ok()) << columns.status();
-  EXPECT_EQ(columns->front().redundant,
-            (std::vector<std::string>{"dh3 = +1 dh2", "dh4 = +1 dq3"}));
+  EXPECT_EQ(columns->front().redundant, (std::vector<std::string>{"dh3 = +1 dh2", "dh4 = +1 dq3"}));
 }
 
 }  // namespace

@@ -1,0 +1,111 @@
+#include "core/calibrate/effect_choice.h"
+
+#include <gtest/gtest.h>
+
+#include "core/calibrate/calibrate.h"
+#include "tests/core/testing/robots.h"
+#include "tests/core/testing/simulated.h"
+
+namespace truepose {
+namespace {
+
+using testing::AnyTarget;
+using testing::Simulated;
+
+SimulateOptions Session(uint64_t seed, int poses) {
+  SimulateOptions options;
+  options.poses = poses;
+  options.seed = seed;
+  options.position_noise_sd_m = 1e-4;
+  options.rotation_noise_sd_rad = 2e-4;
+  return options;
+}
+
+// Readings of a robot whose gears turn with `amplitude` sin(q), loaded and warmed at random.
+CalibrationProblem WithGears(const Simulated& simulated, double amplitude, double per_Nm,
+                             uint64_t seed) {
+  CalibrationProblem problem = simulated.Problem();
+  Model truth = simulated.model();
+  AddEffects(simulated.robot(), EffectGroup::kHarmonic1, &truth);
+  AddEffects(simulated.robot(), EffectGroup::kCompliance, &truth);
+  Eigen::VectorXd lambda = Eigen::VectorXd::Zero(truth.parameters.size());
+  lambda.head(simulated.session().lambda.size()) = simulated.session().lambda;
+  for (int j = 1; j <= 6; ++j) {
+    lambda(*truth.parameters.Find("harmonic1_sin" + std::to_string(j))) = amplitude;
+    lambda(*truth.parameters.Find("compliance" + std::to_string(j))) = per_Nm;
+  }
+  Random random(seed);
+  for (Reading& reading : problem.readings) {
+    reading.conditions.joint_torque = testing::RandomVector(6, 80, &random);
+    reading.conditions.temperature_K = random.Uniform(-3, 3);
+    const Pose noise = Inverse(simulated.session().X_MB *
+                               Forward(simulated.model(), reading.q, simulated.session().lambda) *
+                               simulated.session().X_FT) *
+                       reading.X_MT;
+    reading.X_MT = simulated.session().X_MB *
+                   Forward(truth, reading.q, lambda, reading.conditions) *
+                   simulated.session().X_FT * noise;
+  }
+  return problem;
+}
+
+std::vector<std::string> Taken(const CalibrationResult& result) {
+  std::vector<std::string> names;
+  for (EffectGroup group : result.effect_groups) names.push_back(Name(group));
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+CalibrateOptions Auto() {
+  CalibrateOptions options;
+  options.effects = EffectsMode::kAuto;
+  return options;
+}
+
+// What is there is found, and what is not is left out; the values are the true ones.
+TEST(EffectChoice, FindsGearsAndCompliance) {
+  const Simulated simulated(testing::Ur10(), AnyTarget(), Session(3, 500));
+  const auto result = Calibrate(WithGears(simulated, 4e-4, 3e-6, 8), Auto(), {});
+  ASSERT_TRUE(result.ok()) << result.status();
+  EXPECT_EQ(Taken(*result), (std::vector<std::string>{"compliance", "harmonic1"}));
+  const ParameterSet& parameters = result->model.parameters;
+  const Eigen::VectorXd& lambda = result->identification.estimate.lambda;
+  EXPECT_NEAR(lambda(*parameters.Find("compliance2")), 3e-6, 5e-7);
+  EXPECT_NEAR(lambda(*parameters.Find("harmonic1_sin3")), 4e-4, 8e-5);
+  EXPECT_LT(PoseStatisticsOf(result->control.after).position_m.rms, 2.1e-4);
+}
+
+// A rigid robot gets none: seeded sessions, at most one of ten may be fooled by chance.
+TEST(EffectChoice, TakesNothingFromARigidRobot) {
+  int fooled = 0;
+  for (uint64_t seed = 1; seed <= 10; ++seed) {
+    const Simulated simulated(testing::Ur10(), AnyTarget(), Session(seed, 400));
+    const auto result = Calibrate(WithGears(simulated, 0, 0, seed), Auto(), {});
+    ASSERT_TRUE(result.ok()) << result.status();
+    fooled += !result->effect_groups.empty();
+    EXPECT_FALSE(result->effects.path.empty()) << "it was looked at";
+  }
+  EXPECT_LE(fooled, 1);
+}
+
+// Below three readings a parameter nothing is taken, however strong.
+TEST(EffectChoice, NeedsReadings) {
+  const Simulated simulated(testing::Ur10(), AnyTarget(), Session(5, 160));
+  const auto result = Calibrate(WithGears(simulated, 2e-3, 0, 8), Auto(), {});
+  ASSERT_TRUE(result.ok()) << result.status();
+  EXPECT_TRUE(result->effect_groups.empty());
+}
+
+TEST(EffectChoice, AvailableGroupsFollowTheColumns) {
+  const Simulated simulated(testing::Ur10(), AnyTarget(), Session(5, 20));
+  const CalibrationProblem problem = WithGears(simulated, 0, 0, 1);
+  Problem readings{&simulated.model(), problem.readings, {""}, {""}};
+  EXPECT_EQ(AvailableEffects(simulated.robot(), readings).size(), 5u);
+  readings.readings[3].conditions.joint_torque.resize(0);
+  EXPECT_EQ(AvailableEffects(simulated.robot(), readings).size(), 4u) << "a torque is missing";
+  for (Reading& reading : readings.readings) reading.conditions.temperature_K = 2;
+  EXPECT_EQ(AvailableEffects(simulated.robot(), readings).size(), 3u) << "no change of temperature";
+}
+
+}  // namespace
+}  // namespace truepose
