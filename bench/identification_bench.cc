@@ -13,6 +13,7 @@
 #include "bench/ratios.h"
 #include "bench/shared_problem.h"
 #include "core/calibrate/calibrate.h"
+#include "core/identification/levenberg_marquardt.h"
 #include "core/identification/prediction.h"
 #include "core/models/model.h"
 #include "core/robot/dh.h"
@@ -104,6 +105,25 @@ void Solve(benchmark::State& state) {
   }
 }
 
+// The four estimators on one weighted problem, 81 poses; `cost_over_least` says how near each came.
+void SolveBy(benchmark::State& state, Estimator estimator) {
+  const SharedProblem shared = ReadSharedProblem("arm6", 81);
+  const Ours ours(shared);
+  const CalibrationResult result = ours.Run();
+  const Problem problem = ProblemOf(ours, result.model);
+  const auto solve = [&](Estimator by) {
+    SolveOptions options;
+    options.estimator = by;
+    Estimate estimate = result.before.estimate;
+    return truepose::Solve(problem, result.identification.model_error, result.identification.set.active, options, {},
+                           &estimate);
+  };
+  for (auto _ : state) benchmark::DoNotOptimize(solve(estimator));
+  const SolveSummary summary = solve(estimator);
+  state.counters["iterations"] = summary.iterations;
+  state.counters["cost_over_least"] = summary.final_cost / solve(Estimator::kLevenbergMarquardt).final_cost;
+}
+
 void AutodiffSolve(benchmark::State& state) {
   const SharedProblem shared = ReadSharedProblem("arm6", static_cast<int>(state.range(0)));
   for (auto _ : state) benchmark::DoNotOptimize(bench::AutodiffSolve(shared));
@@ -113,6 +133,10 @@ void AutodiffSolve(benchmark::State& state) {
 
 BENCHMARK(Calibrate)->Arg(81)->Arg(1000)->Unit(benchmark::kMillisecond);
 BENCHMARK(Solve)->Arg(81)->Arg(1000)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(SolveBy, levenberg_marquardt, Estimator::kLevenbergMarquardt)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(SolveBy, linear_iteration, Estimator::kLinearIteration)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(SolveBy, kalman, Estimator::kKalman)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(SolveBy, simplex, Estimator::kSimplex)->Unit(benchmark::kMillisecond);
 BENCHMARK(AutodiffSolve)->Arg(81)->Arg(1000)->Unit(benchmark::kMillisecond);
 
 }  // namespace
@@ -123,5 +147,8 @@ int main(int argc, char** argv) {
                                         {{"Solve/81", "AutodiffSolve/81"},
                                          {"Solve/1000", "AutodiffSolve/1000"},
                                          {"Calibrate/81", "AutodiffSolve/81"},
-                                         {"Calibrate/1000", "AutodiffSolve/1000"}});
+                                         {"Calibrate/1000", "AutodiffSolve/1000"},
+                                         {"SolveBy/linear_iteration", "SolveBy/levenberg_marquardt"},
+                                         {"SolveBy/kalman", "SolveBy/levenberg_marquardt"},
+                                         {"SolveBy/simplex", "SolveBy/levenberg_marquardt"}});
 }

@@ -41,14 +41,12 @@ TEST(NelderMead, CurvedValley) {
   EXPECT_NEAR(result.point(1), 1, 1e-5);
 }
 
-// What counts as an evaluation is a call, and the limit is not passed by a shrinkage either.
+// What counts as an evaluation is a call. Every value is worse than those before, so each step
+// takes all that a step can take, a shrinkage, and must still not pass the limit.
 TEST(NelderMead, LimitOfEvaluations) {
-  for (int limit : {12, 40, 41, 42, 43, 44, 45, 46, 47, 48, 49, 50}) {
+  for (int limit = 12; limit <= 50; ++limit) {
     int calls = 0;
-    const auto rugged = [&](const Eigen::VectorXd& x) {
-      ++calls;
-      return Sphere(x) + std::sin(1e3 * x.sum());
-    };
+    const auto rugged = [&](const Eigen::VectorXd&) { return static_cast<double>(++calls); };
     const NelderMeadResult result =
         NelderMead(rugged, Eigen::VectorXd::Zero(5), {1, 0, limit}, kNever);
     EXPECT_FALSE(result.converged);
