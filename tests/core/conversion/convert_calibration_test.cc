@@ -62,7 +62,7 @@ class EveryRobot : public ::testing::TestWithParam<int> {
         {"measuring arm", testing::MeasuringArm()},
         {"SCARA with coincident axes",
          testing::DhRobot({{0, .3, .25, 0}, {0, 0, .2, 0}, {0, .1, 0, 0}, {0, .05, 0, 0}}, "RRRP")},
-        {"awkward axes", testing::AllRobots().back().robot}};
+        {"awkward axes", testing::AllRobots().at(13).robot}};
     return robots[GetParam()];
   }
 };

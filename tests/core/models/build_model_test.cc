@@ -241,5 +241,17 @@ TEST(ExtendedDh, NominalValuesOfTheUr10) {
   EXPECT_NEAR(std::abs(links[5][1].value), 0.1157, 1e-12);    // h_5
 }
 
+// x points from axis to axis, so a table's negative a is a positive l, with theta turned by 180
+// deg.
+TEST(ExtendedDh, LengthsAreDistances) {
+  const Robot robot = testing::DhRobot({{0, .1, -.2, 90 * kDeg}, {}}, "RR");
+  const std::vector<AxisLine> lines = AxisLines(robot);
+  const Link link = LinkTo({}, LinkStart::kRevolute, lines[1]);
+  EXPECT_NEAR(std::abs(link[0].value), 180 * kDeg, 1e-15);
+  EXPECT_NEAR(link[1].value, 0.1, 1e-15);
+  EXPECT_NEAR(link[2].value, 0.2, 1e-15);
+  EXPECT_NEAR(link[3].value, -90 * kDeg, 1e-15);
+}
+
 }  // namespace
 }  // namespace truepose

@@ -67,6 +67,16 @@ Robot AwkwardAxes() {
                   Rotation(Axis::kY, -90 * kDeg)});
 }
 
+// A prismatic joint whose next axis is parallel and stands beside it.
+Robot PrismaticBesideRevolute() {
+  return RobotOf({Moving(Motion::kRotation, Axis::kZ, 0), Translation(Axis::kX, 0.3),
+                  Rotation(Axis::kX, 90 * kDeg), Moving(Motion::kTranslation, Axis::kZ, 1),
+                  Translation(Axis::kX, 0.1), Translation(Axis::kY, 0.2),
+                  Moving(Motion::kRotation, Axis::kZ, 2), Translation(Axis::kX, 0.1),
+                  Rotation(Axis::kX, 90 * kDeg), Moving(Motion::kRotation, Axis::kZ, 3),
+                  Translation(Axis::kZ, 0.1)});
+}
+
 template <typename Block>
 Eigen::MatrixXd Stack(const Robot& robot, int poses, uint64_t seed, Eigen::Index columns,
                       Block block) {
@@ -149,6 +159,7 @@ std::vector<NamedRobot> AllRobots() {
   robots.push_back({"Stanford beside its base", StanfordBesideBase()});
   robots.push_back({"mixed axes", MixedAxes()});
   robots.push_back({"awkward axes", AwkwardAxes()});
+  robots.push_back({"prismatic beside revolute", PrismaticBesideRevolute()});
   return robots;
 }
 

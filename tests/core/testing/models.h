@@ -38,7 +38,8 @@ struct NamedRobot {
   Robot robot;
 };
 // The counted robots, and chains that are awkward for D&H: joints about x and y, axes in opposite
-// directions, nearly parallel and skew ones, a flange turned by 90 deg.
+// directions, nearly parallel and skew ones, a flange turned by 90 deg, a prismatic joint beside a
+// parallel axis.
 std::vector<NamedRobot> AllRobots();
 
 }  // namespace truepose::testing
