@@ -13,6 +13,7 @@ void AddAllCommands(const Command& root) {
   AddJob(root);
   AddCalibration(root);
   AddSimulate(root);
+  AddReproduce(root);
   AddVersion(root);
 }
 

@@ -17,6 +17,7 @@ void AddCompensate(const Command& root);
 void AddJob(const Command& root);
 void AddCalibration(const Command& root);
 void AddSimulate(const Command& root);
+void AddReproduce(const Command& root);
 void AddVersion(const Command& root);
 
 }  // namespace truepose::cli
