@@ -42,9 +42,10 @@ double Consistency(Loss loss, int rows) {
   const double c = Threshold(loss, rows), step = 1e-3;
   double weighted = 0, weights = 0;
   for (double d = step / 2; d < 12; d += step) {
-    const double density = std::pow(d, rows - 1) * std::exp(-d * d / 2) * WeightAt(loss, d, c);
-    weighted += density * d * d;
-    weights += density;
+    const double density = std::pow(d, rows - 1) * std::exp(-d * d / 2);
+    const double weight = WeightAt(loss, d, c);
+    weighted += density * weight * weight * d * d;
+    weights += density * weight;
   }
   return weighted / (rows * weights);
 }

@@ -20,7 +20,7 @@ const char* Name(Loss loss);
 // w(d) for a reading with `rows` rows.
 double LossWeight(Loss loss, double d, int rows);
 
-// E[w d^2] / (rows E[w]) for d^2 of chi-square with `rows` degrees of freedom.
+// E[(w d)^2] / (rows E[w]) for d^2 of chi-square with `rows` degrees of freedom.
 double Consistency(Loss loss, int rows);
 
 // d of a reading at an estimate: its residual in standard deviations, all rows together.

@@ -14,6 +14,8 @@
 //   kCrossValidation  weighted RMS of the rows of each fold, predicted by the fit to the others.
 //                     Parameters are added while it falls at all; those up to the last one whose
 //                     fall exceeds its own uncertainty (least_fall_sd) are taken.
+// Parameters come one candidate at a time, so two that help only together may be missed by any of
+// these; offer them as a group, or start from a larger base set.
 // Every refit starts at the fit of the base set and so has its weights (see Solve): the weighted
 // cost never grows along a path. Which other parameters a candidate can't be told from is judged at
 // lambda = 0, where redundancies are exact (identifiability.h).

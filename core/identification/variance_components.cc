@@ -59,7 +59,8 @@ GroupRows CollectGroup(const WhitenedSystem& system, WhitenedSystem::Row group, 
   double weights = 0;
   for (Eigen::Index i = 0; i < system.raw.size(); ++i) {
     if (system.kind[i] != group) continue;
-    rows.squared_residual.push_back(system.weight(i) * system.raw(i) * system.raw(i));
+    const double limited = system.weight(i) * system.raw(i);
+    rows.squared_residual.push_back(limited * limited);
     rows.stated_variance.push_back(
         std::max(0.0, system.sd(i) * system.sd(i) - model_sd * model_sd));
     weights += system.weight(i);
@@ -108,8 +109,8 @@ void AddTerm(const Term& term, const ModelError& error, double consistency, Side
   const ResidualMatrix inverse = R.inverse();
   const Residual z = inverse * term.r;
   const ResidualMatrix P = inverse - term.weight * inverse * term.prediction * inverse;
-  sides->quadratic[0] += term.weight * z.head(p).squaredNorm();
-  sides->quadratic[1] += term.weight * z.tail(n - p).squaredNorm();
+  sides->quadratic[0] += term.weight * term.weight * z.head(p).squaredNorm();
+  sides->quadratic[1] += term.weight * term.weight * z.tail(n - p).squaredNorm();
   sides->trace[0] += consistency * term.weight * P.diagonal().head(p).sum();
   sides->trace[1] += consistency * term.weight * P.diagonal().tail(n - p).sum();
 }

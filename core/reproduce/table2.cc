@@ -40,6 +40,24 @@ class Links {
   std::vector<std::string> names_;
 };
 
+std::vector<std::string> Printed() {
+  return {"1 0 0 0 0 0",
+          "0 1 0 0 0 0",
+          "0 0 0 1 0 0",
+          "0 0 0 0 1 0",
+          "0 0 0 0 0 1",
+          "C S 0 0 0 0",
+          "0 0 1 0 0 0",
+          "0 0 0 C S 0",
+          "lS -lC 0 0 0 1",
+          "0 0 -l S -C 0",
+          "CC' SC' S' 0 0 0",
+          "-S C 0 0 0 0",
+          "...",
+          "...",
+          "..."};
+}
+
 }  // namespace
 
 Table2Result Table2(const Table2Arguments& arguments) {
@@ -53,7 +71,7 @@ Table2Result Table2(const Table2Arguments& arguments) {
   Sweep sweep;
   RunSweep(links.chain(), nullptr, lambda.data(), &sweep);
   const auto j = [&](int column) { return sweep.J_parameters.col(column - 1); };
-  return {links.names(), sweep.J_parameters, j(5) - j(9) - arguments.l * j(12)};
+  return {links.names(), sweep.J_parameters, Printed(), j(5) - j(9) - arguments.l * j(12)};
 }
 
 }  // namespace truepose

@@ -161,6 +161,25 @@ TEST(Section11, CostOfTheLargerSetIsNeverLarger) {
   }
 }
 
+// The same by the other criteria. Would catch cross-validation that gives up at the first step that
+// a few readings make uncertain (0.33 mm with 60 poses). With 40 poses of this robot it takes
+// another way and does not find al4 and al5, which help only together: 0.23 mm, no bound.
+TEST(Section11, OtherCriteriaReachNearlyTheSame) {
+  for (SelectionCriterion criterion :
+       {SelectionCriterion::kBic, SelectionCriterion::kCrossValidation}) {
+    Section11Options options;
+    options.seeds = {3};
+    options.selection.criterion = criterion;
+    const auto result = Section11(options, {});
+    ASSERT_TRUE(result.ok()) << result.status();
+    for (const DimeFit* fit : Fits(result->seeds[0], DimeSet::kSelected, "levenberg_marquardt")) {
+      if (criterion == SelectionCriterion::kCrossValidation && fit->calibration_poses == 40)
+        continue;
+      EXPECT_LE(fit->control.mean, 0.11 * kMm) << Name(criterion) << fit->calibration_poses;
+    }
+  }
+}
+
 // Would catch seeds that do not reach the draws, and a state that one run leaves for the next.
 TEST(Section11, IsTheSameForTheSameSeedAndAnotherForAnother) {
   Section11Options options;

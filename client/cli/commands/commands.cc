@@ -14,6 +14,7 @@ void AddAllCommands(const Command& root) {
   AddCalibration(root);
   AddSimulate(root);
   AddModel(root);
+  AddReproduce(root);
   AddVersion(root);
 }
 

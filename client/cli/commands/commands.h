@@ -20,6 +20,7 @@ void AddCalibration(const Command& root);
 void AddCalibrationExport(const Command& calibration);
 void AddSimulate(const Command& root);
 void AddModel(const Command& root);
+void AddReproduce(const Command& root);
 void AddVersion(const Command& root);
 
 }  // namespace truepose::cli

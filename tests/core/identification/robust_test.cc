@@ -18,7 +18,7 @@ TEST(Robust, WeightsAtTheirThresholds) {
   EXPECT_GT(LossWeight(Loss::kTukey, 4.69, 6), 0.1) << "six rows are larger together";
 }
 
-// E[w r^2] / E[w] of normal draws, counted instead of integrated.
+// E[(w r)^2] / E[w] of normal draws, counted instead of integrated.
 TEST(Robust, ConsistencyIsThatOfNormalResiduals) {
   Random random(5);
   for (Loss loss : {Loss::kHuber, Loss::kTukey}) {
@@ -31,7 +31,7 @@ TEST(Robust, ConsistencyIsThatOfNormalResiduals) {
           squared += z * z;
         }
         const double w = LossWeight(loss, std::sqrt(squared), rows);
-        weighted += w * squared;
+        weighted += w * w * squared;
         weights += w;
       }
       // 200,000 draws: a standard error of about 0.003.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <set>
 
@@ -94,6 +95,28 @@ SelectionOptions By(SelectionCriterion criterion) {
 
 std::set<std::string> Added(const absl::StatusOr<SelectionResult>& result) {
   return {result->added.begin(), result->added.end()};
+}
+
+// Each criterion by its own formula, at the base set. Would catch AIC's or Hannan's penalty, a cost
+// taken for a sum of squares, and an E* of other rows than it says.
+TEST(Selection, CriteriaAreWhatTheirNamesSay) {
+  Session session = ThreeErrors();
+  const double n = 240, k = 12;
+  const auto base = [&](const SelectionOptions& options) {
+    return session.Select({}, options)->path.front();
+  };
+  const SelectionStep bic = base(By(SelectionCriterion::kBic));
+  EXPECT_EQ(bic.parameters, 12);
+  const double chi2 = n * bic.weighted_rms * bic.weighted_rms;
+  EXPECT_NEAR(bic.criterion, n * std::log(chi2 / n) + k * std::log(n), 1e-9 * n);
+  SelectionOptions forward = By(SelectionCriterion::kForward);
+  EXPECT_EQ(base(forward).criterion, bic.weighted_rms);
+  forward.position_only = true;
+  const Estimate estimate = session.Select({}, forward)->estimate;
+  double squares = 0;
+  for (const Reading& reading : session.problem().readings)
+    squares += ResidualAt(session.problem(), reading, estimate).head<3>().squaredNorm();
+  EXPECT_NEAR(base(forward).criterion, std::sqrt(squares / 40), 1e-12);
 }
 
 class EveryCriterion : public ::testing::TestWithParam<SelectionCriterion> {};
