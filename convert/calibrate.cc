@@ -151,8 +151,8 @@ absl::StatusOr<v1::Calibration> RunOnce(const v1::CalibrationInput& input, const
   TRUEPOSE_RETURN_IF_ERROR(CheckInput(input));
   TRUEPOSE_ASSIGN_OR_RETURN(const Robot robot, RobotFrom(input.nominal()));
   const Sessions sessions = SessionsOf(input);
-  TRUEPOSE_ASSIGN_OR_RETURN(ReadingsProblem readings, ReadingsFrom(input.nominal(), robot, sessions,
-                                                                   input.options().observe()));
+  TRUEPOSE_ASSIGN_OR_RETURN(ReadingsProblem readings,
+                            ReadingsFrom(input.nominal(), robot, sessions, input.options()));
   std::vector<std::string> warnings;
   TRUEPOSE_RETURN_IF_ERROR(CheckLimits(input, &warnings));
   readings.problem.robot = &robot;

@@ -30,6 +30,25 @@ v1::Evaluation MessageOf(const EvaluationResult& result, const ReadingsProblem& 
   return evaluation;
 }
 
+// How the calibration's sessions were read, for readings of the same kind: a fixture counts where
+// the session's rows name its features.
+v1::CalibrationOptions OptionsOf(const v1::Calibration& calibration,
+                                 const v1::SessionInput& session, v1::Observe observe) {
+  v1::CalibrationOptions options;
+  options.set_observe(observe);
+  const std::string& column = calibration.options().feature_column();
+  bool in_features = false;
+  for (const v1::Reading& reading : session.readings())
+    in_features = in_features || !reading.feature().empty();
+  for (const std::string& extra : session.session().extra_columns())
+    in_features = in_features || (!column.empty() && extra == column);
+  if (!in_features || !calibration.options().has_fixture()) return options;
+  *options.mutable_fixture() = calibration.options().fixture();
+  options.set_feature_column(column);
+  *options.mutable_joint_sd() = calibration.options().joint_sd();
+  return options;
+}
+
 }  // namespace
 
 absl::StatusOr<v1::Evaluation> RunEvaluation(const v1::Nominal& nominal,
@@ -38,8 +57,9 @@ absl::StatusOr<v1::Evaluation> RunEvaluation(const v1::Nominal& nominal,
   TRUEPOSE_ASSIGN_OR_RETURN(const Robot robot, RobotFrom(nominal));
   TRUEPOSE_ASSIGN_OR_RETURN(const CalibratedModel calibrated,
                             CalibratedModelFrom(robot, calibration));
-  TRUEPOSE_ASSIGN_OR_RETURN(ReadingsProblem readings,
-                            ReadingsFrom(nominal, robot, {&session}, observe));
+  TRUEPOSE_ASSIGN_OR_RETURN(
+      ReadingsProblem readings,
+      ReadingsFrom(nominal, robot, {&session}, OptionsOf(calibration, session, observe)));
   readings.problem.robot = &robot;
   if (nominal.tools_size() > 0) readings.problem.X_FT_nominal = PoseFrom(nominal.tools(0).pose());
   TRUEPOSE_ASSIGN_OR_RETURN(

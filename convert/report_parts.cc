@@ -48,6 +48,10 @@ void FillSuspects(const CalibrationResult& result, const ReadingsProblem& readin
 
 void FillCorrelations(const CalibrationResult& result, v1::CalibrationReport* report) {
   for (const Correlation& correlation : result.correlations) {
+    // Frames that trade with each other concern nobody: the robot's own parameters do.
+    if (result.candidates[correlation.a].group != ParameterGroup::kInternal &&
+        result.candidates[correlation.b].group != ParameterGroup::kInternal)
+      continue;
     v1::Correlation* message = report->add_correlations();
     message->set_a(result.candidates[correlation.a].name);
     message->set_b(result.candidates[correlation.b].name);
