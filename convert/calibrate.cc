@@ -7,6 +7,7 @@
 #include "convert/frames.h"
 #include "convert/options.h"
 #include "convert/readings.h"
+#include "convert/repeatability.h"
 #include "convert/report.h"
 #include "convert/robot.h"
 #include "convert/run.h"
@@ -170,6 +171,7 @@ absl::StatusOr<v1::Calibration> RunOnce(const v1::CalibrationInput& input, const
       input, result, readings,
       input.options().nominal_tool().empty() ? std::nullopt : readings.problem.X_FT_nominal);
   FillReport(input, readings, warnings, calibration.mutable_report());
+  FillRepeatability(sessions, readings, result, calibration.mutable_report());
   return calibration;
 }
 

@@ -108,6 +108,15 @@ std::string AccuracyText(const v1::CalibrationReport& report) {
                           100.0 * predicted.inside() / predicted.control(),
                           100.0 * predicted.inside_covariance_alone() / predicted.control());
   }
+  if (report.has_repeatability()) {
+    const v1::Repeatability& repeat = report.repeatability();
+    absl::StrAppendFormat(&text,
+                          "Repeatability: %d pairs differ by %.3f mm, sd %.3f; mean + 3 sd %.3f mm "
+                          "(the chapter's); ISO "
+                          "9283 RP %.3f mm from %d groups\n",
+                          repeat.pairs(), repeat.difference_mean_mm(), repeat.difference_sd_mm(),
+                          repeat.chapter_mm(), repeat.iso_rp_mm(), repeat.groups());
+  }
   if (report.has_change() && report.change().names_size() > 0) {
     absl::StrAppendFormat(&text, "Change of %s: chi-square %.2f of %d, p = %.2g: %s\n",
                           absl::StrJoin(report.change().names(), ", "),
