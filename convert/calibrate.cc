@@ -66,6 +66,14 @@ std::vector<std::optional<Pose>> KnownBases(const v1::PriorCalibration& prior,
   return known;
 }
 
+// The earlier calibration's target, for calibrate = base without a tool that is named.
+std::optional<Pose> EarlierTool(const v1::CalibrationOptions& options) {
+  if (options.calibrate() != "base" || !options.nominal_tool().empty()) return std::nullopt;
+  for (const v1::FrameEstimate& frame : options.prior_calibration().frames())
+    if (frame.group() == v1::TOOL) return PoseFrom(frame.pose());
+  return std::nullopt;
+}
+
 // Roles of the usable readings, from the split of all rows.
 absl::StatusOr<std::vector<bool>> Roles(const Sessions& sessions, const ReadingsProblem& readings,
                                         const v1::CalibrationOptions& options) {
@@ -161,6 +169,7 @@ absl::StatusOr<v1::Calibration> RunOnce(const v1::CalibrationInput& input, const
                             Roles(sessions, readings, input.options()));
   TRUEPOSE_ASSIGN_OR_RETURN(readings.problem.X_FT_nominal,
                             NominalTool(input.nominal(), input.options().nominal_tool()));
+  if (const auto earlier = EarlierTool(input.options())) readings.problem.X_FT_nominal = earlier;
   TRUEPOSE_ASSIGN_OR_RETURN(const CalibrateOptions options, CalibrateOptionsFrom(input.options()));
   readings.problem.X_MB_known =
       KnownBases(input.options().prior_calibration(), readings.problem.placements);

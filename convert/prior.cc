@@ -32,8 +32,7 @@ v1::PriorCalibration PriorOf(const v1::Calibration& calibration) {
   }
   prior.set_model_sd_position_mm(report.summary().model_sd_position_mm());
   prior.set_model_sd_rotation_deg(report.summary().model_sd_rotation_deg());
-  for (const v1::FrameEstimate& frame : report.frames())
-    if (frame.group() == v1::BASE) *prior.add_frames() = frame;
+  *prior.mutable_frames() = report.frames();
   return prior;
 }
 

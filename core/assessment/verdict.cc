@@ -151,7 +151,7 @@ void JudgeSelection(const std::vector<SelectionStep>& path, Verdict* verdict) {
 
 void JudgeHeldFit(double weighted_residual_variance, int redundancy, Verdict* verdict) {
   if (redundancy <= 0 ||
-      ChiSquareSurvival(weighted_residual_variance * redundancy, redundancy) > 1e-3)
+      ChiSquareSurvival(weighted_residual_variance * redundancy, redundancy) > 0.01)
     return;
   verdict->decision = Decision::kDoNotApply;
   verdict->reasons.push_back(absl::StrFormat(
@@ -163,10 +163,11 @@ void JudgeHeldFit(double weighted_residual_variance, int redundancy, Verdict* ve
 
 void JudgeChange(double p_value, bool real, Verdict* verdict) {
   if (!real) verdict->decision = Decision::kDoNotApply;
-  verdict->reasons.push_back(absl::StrFormat(
-      real ? "the change from the earlier calibration is real (p = %.2g)"
-           : "the earlier calibration still holds: a change like this is chance (p = %.2g)",
-      p_value));
+  verdict->reasons.push_back(
+      absl::StrFormat(real ? "the change from the earlier calibration is real (p = %.2g)"
+                           : "what was found anew differs from the earlier calibration by no more "
+                             "than chance (p = %.2g)",
+                      p_value));
 }
 
 }  // namespace truepose

@@ -140,6 +140,23 @@ std::vector<Term> Terms(const Problem& problem, const Estimate& estimate,
   return terms;
 }
 
+// Mean stated variance of the group's rows.
+double MeanStated(const std::vector<Term>& terms, int group) {
+  double sum = 0, rows = 0;
+  for (const Term& term : terms) {
+    const Eigen::Index p = term.positions, n = term.stated.rows() - p;
+    sum += group == 0 ? term.stated.diagonal().head(p).sum() : term.stated.diagonal().tail(n).sum();
+    rows += static_cast<double>(group == 0 ? p : n);
+  }
+  return rows > 0 ? sum / rows : 0;
+}
+
+// Below a hundredth of what is stated s_model changes no weight by more than 1e-4, and only crawls
+// towards zero: it is there already.
+double SettledSd(double sd, double mean_stated, double floor) {
+  return sd * sd < 1e-4 * mean_stated ? floor : sd;
+}
+
 // s^2 <- s^2 sqrt(quadratic / trace), which grows the likelihood at every step.
 ModelError ByLikelihood(const Problem& problem, const Estimate& estimate,
                         const std::vector<int>& active, ModelError error, double consistency) {
@@ -158,6 +175,9 @@ ModelError ByLikelihood(const Problem& problem, const Estimate& estimate,
     error = next;
     if (change < 1e-9) break;
   }
+  error.position_sd_m = SettledSd(error.position_sd_m, MeanStated(terms, 0), kPositionFloor_m);
+  error.rotation_sd_rad =
+      SettledSd(error.rotation_sd_rad, MeanStated(terms, 1), kRotationFloor_rad);
   return error;
 }
 

@@ -9,7 +9,7 @@ namespace {
 // Weights that move less than this no longer move parameters by a visible part of their deviation.
 constexpr double kWeightStands = 1e-4;
 
-double RelativeChange(double a, double b) { return std::abs(a - b) / std::max(a, b); }
+double RelativeChange(double a, double b) { return a == b ? 0 : std::abs(a - b) / std::max(a, b); }
 
 bool Stands(const ModelError& a, const ModelError& b, double tolerance) {
   return RelativeChange(a.position_sd_m, b.position_sd_m) < tolerance &&

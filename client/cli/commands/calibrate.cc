@@ -115,7 +115,8 @@ std::string NextAfter(const v1::Calibration& calibration, const std::string& nex
   if (calibration.report().verdict() != "do_not_apply") return next_step;
   const v1::CalibrationReport& report = calibration.report();
   if (report.has_change() && report.change().names_size() > 0 && !report.change().real())
-    return "go on with the earlier calibration; it still holds";
+    return "go on with the earlier calibration, unless a reason above says that the readings do "
+           "not fit it";
   return "find the cause first: the reasons above, then units, order of joints and robot file";
 }
 

@@ -132,6 +132,26 @@ TEST_F(Recalibration, DeviationCoversTheHeldParameters) {
   EXPECT_LT(squares / 40, 1.8) << "one stored calibration: its own error is one draw";
 }
 
+// dq1 is a motion of the base: asking for it by name is a fault, not a test of nothing.
+TEST_F(Recalibration, AParameterThatNothingTellsIsAFault) {
+  options_.calibrate = "dq1,dq3";
+  const auto result = Calibrate(AfterRepair(simulated_, 0, 6, 4), options_, {});
+  ASSERT_FALSE(result.ok());
+  EXPECT_NE(result.status().message().find("dq1"), std::string::npos) << result.status();
+  EXPECT_EQ(result.status().message().find("dq3"), std::string::npos) << result.status();
+}
+
+// The wrong joint is found anew: the readings don't fit, and it is said.
+TEST_F(Recalibration, WhatElseHasChangedIsNoticed) {
+  options_.calibrate = "dq5";
+  const CalibrationResult result = Again(3e-3, 8, 6);
+  EXPECT_EQ(result.verdict.decision, Decision::kDoNotApply);
+  bool said = false;
+  for (const std::string& reason : result.verdict.reasons)
+    said = said || reason.find("do not fit what is held") != std::string::npos;
+  EXPECT_TRUE(said);
+}
+
 TEST_F(Recalibration, BaseAloneNeedsItsTool) {
   options_.calibrate = "base";
   const auto without = Calibrate(AfterRepair(simulated_, 0, 5, 3), options_, {});
