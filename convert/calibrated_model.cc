@@ -14,7 +14,8 @@ namespace {
 
 // The kind of model and the effects that a report names.
 absl::StatusOr<Model> ModelOf(const Robot& robot, const v1::CalibrationReport& report) {
-  auto built = BuildModel(report.model(), robot, ModelExtent::kInternal);
+  const std::string kind = report.model().empty() ? "modified_incremental" : report.model();
+  auto built = BuildModel(kind, robot, ModelExtent::kInternal);
   if (!built.ok())
     return FaultStatus("calibration.report.model", absl::StrCat("'", report.model(), "'"),
                        "a model of this program");

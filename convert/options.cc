@@ -112,6 +112,7 @@ Eigen::MatrixXd SquareOf(const google::protobuf::RepeatedField<double>& values, 
 
 void ReadStored(const v1::PriorCalibration& message, CalibrateOptions* options, FaultList* faults) {
   StoredCalibration stored;
+  stored.convention = message.convention();
   for (const v1::InternalParameter& parameter : message.internal_parameters())
     stored.internal.emplace_back(parameter.name(), parameter.value());
   stored.identified.assign(message.identified().begin(), message.identified().end());

@@ -78,6 +78,12 @@ Eigen::VectorXd ShownVariances(const CalibrationResult& result) {
   return variances;
 }
 
+// What an internal parameter was before: of the earlier calibration in a partial recalibration.
+double BeforeOf(const CalibrationResult& result, const Parameter& parameter, double nominal) {
+  if (!result.change || parameter.group != ParameterGroup::kInternal) return nominal;
+  return result.before.estimate.lambda(*result.model.parameters.Find(parameter.name));
+}
+
 v1::ParameterReport ParametersOf(const CalibrationResult& result, const Pose& X_FT_nominal) {
   v1::ParameterReport report;
   const std::vector<int>& active = result.identification.set.active;
@@ -88,7 +94,7 @@ v1::ParameterReport ParametersOf(const CalibrationResult& result, const Pose& X_
     const auto [nominal, identified] = ValuesOf(result, active[i], X_FT_nominal);
     v1::ParameterValue* value = report.add_values();
     value->set_name(parameter.name);
-    value->set_nominal(nominal * scale);
+    value->set_nominal(BeforeOf(result, parameter, nominal) * scale);
     value->set_identified(identified * scale);
     const auto k = static_cast<Eigen::Index>(i);
     if (k < variances.size()) value->set_sd(std::sqrt(variances(k)) * scale);

@@ -95,11 +95,31 @@ std::string NoiseLine(const v1::Summary& summary) {
                          summary.weighted_residual_variance());
 }
 
-std::string HeadText(const v1::CalibrationReport& report) {
-  std::string text =
-      absl::StrCat("Model ", report.model(), ", estimator ", report.estimator(), ", ",
-                   report.joints_used(), " joints, split ",
-                   report.split().empty() ? "none (all rows calibrate)" : report.split(), "\n");
+// ", prior tolerance, loss tukey": what was asked for beside the defaults.
+std::string OptionsText(const v1::CalibrationOptions& options) {
+  std::string text;
+  const auto add = [&text](const char* name, const std::string& value) {
+    if (!value.empty() && value != "none" && value != "all")
+      absl::StrAppend(&text, ", ", name, " ", value);
+  };
+  add("calibrate", options.calibrate());
+  add("prior", options.prior() == "calibration" ? options.prior_calibration().name().empty()
+                                                      ? "calibration"
+                                                      : options.prior_calibration().name()
+                                                : options.prior());
+  add("select", options.select());
+  add("effects", options.effects());
+  add("loss", options.loss());
+  add("pose matching", options.pose_matching());
+  if (options.has_fixture()) absl::StrAppend(&text, ", fixture ", options.fixture().name());
+  return text;
+}
+
+std::string HeadText(const v1::CalibrationReport& report, const v1::CalibrationOptions& options) {
+  std::string text = absl::StrCat(
+      "Model ", report.model(), ", estimator ", report.estimator(), ", ", report.joints_used(),
+      " joints, split ", report.split().empty() ? "none (all rows calibrate)" : report.split(),
+      OptionsText(options), "\n");
   absl::StrAppend(&text, SummaryLine(report), "\n", NoiseLine(report.summary()), "\n");
   if (report.summary().termination() != "converged" && !report.summary().message().empty()) {
     absl::StrAppend(&text, report.summary().message(), "\n");
@@ -149,10 +169,10 @@ std::string SetsTable(const v1::Sets& sets) {
   return table.Text(kIndent);
 }
 
-std::string ParametersTable(const v1::ParameterReport& parameters) {
+std::string ParametersTable(const v1::ParameterReport& parameters, bool from_earlier) {
   Table table({{"name", Align::kLeft},
                {"group", Align::kLeft},
-               {"nominal"},
+               {from_earlier ? "earlier" : "nominal"},
                {"identified"},
                {"change"},
                {"sd"},
@@ -223,8 +243,8 @@ std::string VerdictText(const v1::CalibrationReport& report, const Console& cons
 std::string CalibrationText(const v1::Calibration& calibration, const Console& console) {
   // What matters most comes last, where a terminal shows it.
   const v1::CalibrationReport& report = calibration.report();
-  std::string text = HeadText(report);
-  AppendSection("Parameters", ParametersTable(report.parameters()), &text);
+  std::string text = HeadText(report, calibration.options());
+  AppendSection("Parameters", ParametersTable(report.parameters(), report.has_change()), &text);
   AppendSection("Tool in the frame of the flange, base in that of the instrument",
                 FramesTable(report), &text);
   AppendSection("Parameters that stay at nominal", RedundanciesText(report), &text);

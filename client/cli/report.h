@@ -15,7 +15,8 @@ std::string SetsTable(const v1::Sets& sets);
 std::string SetTable(const std::string& title, const v1::SetReport& set);
 
 // Nominal, identified, change and standard deviation of every identified parameter.
-std::string ParametersTable(const v1::ParameterReport& parameters);
+// @param from_earlier the values before are those of an earlier calibration.
+std::string ParametersTable(const v1::ParameterReport& parameters, bool from_earlier = false);
 
 // What each dropped parameter acts as ("+1 dq2"), and whether at any poses. "" without any.
 std::string RedundanciesText(const v1::CalibrationReport& report);

@@ -6,6 +6,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "core/base/chi_square.h"
 #include "core/base/random.h"
 
 namespace truepose {
@@ -130,6 +131,18 @@ void JudgeSelection(const std::vector<SelectionStep>& path, Verdict* verdict) {
   verdict->reasons.push_back(absl::StrCat(
       "a selection chose ", taken,
       " parameters beside offsets and lengths; the others stayed nominal at these poses"));
+}
+
+void JudgeHeldFit(double weighted_residual_variance, int redundancy, Verdict* verdict) {
+  if (redundancy <= 0 ||
+      ChiSquareSurvival(weighted_residual_variance * redundancy, redundancy) > 1e-3)
+    return;
+  verdict->decision = Decision::kDoNotApply;
+  verdict->reasons.push_back(absl::StrFormat(
+      "the readings do not fit what is held from the earlier calibration (weighted residual "
+      "variance "
+      "%.2f, expected 1): something else has changed too; find it with more parameters or all",
+      weighted_residual_variance));
 }
 
 void JudgeChange(double p_value, bool real, Verdict* verdict) {

@@ -96,7 +96,13 @@ Verdict JudgeResult(const CalibrationProblem& problem, const Part& part,
               ParameterUncertainty(Elsewhere(part.problem, *problem.robot), result.identification),
               result.identification.model_error.position_sd_m * std::sqrt(3.0), &verdict);
   JudgeSelection(result.selection, &verdict);
-  if (result.change) JudgeChange(result.change->p_value, result.change->real, &verdict);
+  if (result.change) {
+    const int redundancy =
+        result.identification.rows - static_cast<int>(result.identification.set.active.size());
+    JudgeHeldFit(result.identification.weighted_residual_variance, redundancy, &verdict);
+    if (!result.change->names.empty())
+      JudgeChange(result.change->p_value, result.change->real, &verdict);
+  }
   return verdict;
 }
 

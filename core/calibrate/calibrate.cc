@@ -46,6 +46,7 @@ absl::Status Prepare(const Model& model, Run* run) {
   if (options.prior == PriorKind::kTolerance)
     run->part.problem.prior = PriorOf(options.tolerance, model.parameters);
   if (options.prior == PriorKind::kStored) {
+    TRUEPOSE_RETURN_IF_ERROR(CheckConvention(*options.stored, model));
     TRUEPOSE_ASSIGN_OR_RETURN(Prior prior, PriorOf(*options.stored, model.parameters));
     run->start_lambda = prior.mean;
     if (HoldsTheRest(options)) {
@@ -164,6 +165,7 @@ absl::StatusOr<CalibrationResult> Calibrate(const CalibrationProblem& problem,
           options.identify,
           {},
           {}};
+  TRUEPOSE_RETURN_IF_ERROR(CheckEffects(*problem.robot, run.part.problem, result.effect_groups));
   TRUEPOSE_RETURN_IF_ERROR(Prepare(result.model, &run));
   TRUEPOSE_RETURN_IF_ERROR(FindBefore(&run, &result));
   TRUEPOSE_RETURN_IF_ERROR(IdentifyParameters(&run, 0.3, 0.5, &result));

@@ -39,4 +39,38 @@ absl::Status CheckComplete(const IdentifiableSet& set, const ParameterSet& candi
   return faults.ToStatus(absl::StatusCode::kFailedPrecondition);
 }
 
+absl::Status CheckEffects(const Robot& robot, const Problem& part,
+                          const std::vector<EffectGroup>& groups) {
+  const std::vector<EffectGroup> available = AvailableEffects(robot, part);
+  FaultList faults;
+  for (EffectGroup group : groups) {
+    if (std::find(available.begin(), available.end(), group) != available.end()) continue;
+    const bool compliance = group == EffectGroup::kCompliance;
+    faults.Add("options.effects", absl::StrCat("'", Name(group), "' without its cause"),
+               compliance
+                   ? "joint torques in every reading (tau1_Nm...), or masses in the robot file"
+                   : "a temperature (temp_C) that varies");
+  }
+  return faults.ToStatus();
+}
+
+absl::Status CheckConvention(const StoredCalibration& stored, const Model& model) {
+  if (stored.convention.empty() || stored.convention == model.convention) return absl::OkStatus();
+  return FaultStatus("options.model", absl::StrCat("'", model.kind, "'"),
+                     absl::StrCat("the model of the prior calibration (", stored.convention, ")"));
+}
+
+absl::Status CheckNamed(const Scope& scope, const IdentifiableSet& set,
+                        const ParameterSet& candidates) {
+  FaultList faults;
+  for (const NullRelation& relation : set.redundancies) {
+    if (std::find(scope.named.begin(), scope.named.end(), relation.dropped) == scope.named.end())
+      continue;
+    faults.Add("options.calibrate", ReasonText(relation, candidates),
+               "parameters that these readings can tell; what base or tool takes up is found with "
+               "calibrate = external");
+  }
+  return faults.ToStatus(absl::StatusCode::kFailedPrecondition);
+}
+
 }  // namespace truepose

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/calibrate/calibrate.h"
+#include "core/calibrate/scope.h"
 
 namespace truepose {
 
@@ -13,5 +14,17 @@ absl::Status CheckRedundancy(const Identification& identification);
 
 // kFailedPrecondition with a fault for each parameter that other readings would determine.
 absl::Status CheckComplete(const IdentifiableSet& set, const ParameterSet& candidates);
+
+// kInvalidArgument: effects whose cause was not recorded (effect_choice.h, AvailableEffects).
+absl::Status CheckEffects(const Robot& robot, const Problem& part,
+                          const std::vector<EffectGroup>& groups);
+
+// kInvalidArgument: a stored calibration of another model.
+absl::Status CheckConvention(const StoredCalibration& stored, const Model& model);
+
+// kFailedPrecondition with a fault for each parameter that was asked for by name and can't be told
+// by these readings.
+absl::Status CheckNamed(const Scope& scope, const IdentifiableSet& set,
+                        const ParameterSet& candidates);
 
 }  // namespace truepose

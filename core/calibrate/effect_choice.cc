@@ -155,20 +155,22 @@ struct Candidate {
 };
 
 // Looks at every group left and takes the best one if it is entitled. @returns whether one was.
-bool TakeOne(const Linearised& system, double readings_per_parameter, std::vector<int>* columns,
-             std::vector<Candidate>* left, EffectChoice* choice) {
+bool TakeOne(const Linearised& system, const EffectChoiceOptions& options,
+             std::vector<int>* columns, std::vector<Candidate>* left, EffectChoice* choice) {
   const std::vector<double> now = system.HeldOut(*columns);
   size_t best = left->size();
   double best_mean = 0;
   std::vector<int> best_columns;
   for (size_t i = 0; i < left->size(); ++i) {
     const std::vector<int> wider = system.Independent(Joined(*columns, (*left)[i].columns));
-    if (system.units() < readings_per_parameter * static_cast<double>(wider.size())) continue;
+    if (system.units() < options.readings_per_parameter * static_cast<double>(wider.size()))
+      continue;
     const std::vector<double> then = system.HeldOut(wider);
     choice->path.push_back({Name((*left)[i].group), static_cast<int>(wider.size()),
                             system.FittedRms(wider), system.Rms(then), false});
     const auto [mean, standard_error] = DropOf(now, then);
-    if (mean <= standard_error || mean <= best_mean) continue;
+    const bool enough = system.Rms(then) <= (1 - options.least_gain) * system.Rms(now);
+    if (!enough || mean <= standard_error || mean <= best_mean) continue;
     best = i, best_mean = mean, best_columns = wider;
   }
   if (best == left->size()) return false;
@@ -218,7 +220,7 @@ EffectChoice ChooseEffects(const Robot& robot, const Problem& problem,
   EffectChoice choice;
   choice.path.push_back({"", static_cast<int>(columns.size()), system.FittedRms(columns),
                          system.Rms(system.HeldOut(columns)), true});
-  while (TakeOne(system, options.readings_per_parameter, &columns, &left, &choice)) {
+  while (TakeOne(system, options, &columns, &left, &choice)) {
   }
   return choice;
 }

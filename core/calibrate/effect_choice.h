@@ -5,8 +5,9 @@
 // -> 0.564 mm), so a group is taken only when
 //  - there are at least `readings_per_parameter` readings for each parameter, that group's
 //  included;
-//  - k-fold cross-validation on the calibration readings improves by more than its own standard
-//    error.
+//  - the RMS of k-fold cross-validation on the calibration readings falls by more than its own
+//    standard error, and by at least `least_gain`: with thousands of readings a gain of a
+//    thousandth is significant and still buys nothing for the parameters that it costs.
 // The group that improves most is taken first, then the rest is looked at again. Folds are fitted
 // on the linearised problem at the geometric solution: effects are of the size of the errors that
 // it leaves, so what is neglected is of second order.
@@ -22,6 +23,7 @@ namespace truepose {
 struct EffectChoiceOptions {
   int folds = 10;
   double readings_per_parameter = 3;
+  double least_gain = 0.01;  // share of the cross-validated RMS
   uint64_t seed = 1;
 };
 

@@ -63,6 +63,8 @@ absl::StatusOr<Scope> ScopeOf(const std::string& text, const Problem& problem) {
   FaultList faults;
   for (const std::string& word : words) {
     if (word == "external" || word == "base" || word == "tool") continue;
+    if (const auto index = problem.model->parameters.Find(word))
+      scope.named.push_back(problem.FirstInternal() + *index);
     if (AddInternal(word, problem, &free)) continue;
     faults.Add("options.calibrate", absl::StrCat("'", word, "'"),
                absl::StrCat("all, internal, external, base, tool, joint_offsets, or parameters of ",

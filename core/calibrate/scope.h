@@ -17,7 +17,8 @@
 namespace truepose {
 
 struct Scope {
-  std::vector<int> free;  // candidates, ascending; empty = all
+  std::vector<int> free;   // candidates, ascending; empty = all
+  std::vector<int> named;  // of these, those that were asked for by their own name
   bool base = true, tool = true;
 };
 

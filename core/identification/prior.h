@@ -28,6 +28,7 @@ Prior NoPrior(const ParameterSet& parameters);
 
 // A calibration made before, as it was stored.
 struct StoredCalibration {
+  std::string convention;                                // of its model; "" where it is not known
   std::vector<std::pair<std::string, double>> internal;  // all its internal parameters, SI
   std::vector<std::string> identified;                   // beside the covariance
   Eigen::MatrixXd covariance;                            // of `identified`, SI

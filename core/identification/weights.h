@@ -61,7 +61,8 @@ double CostOf(const Problem& problem, const Estimate& estimate, const Whiteners&
 // instrument, it only keeps weights finite).
 // @param active candidate indices, linearly independent at the estimate.
 // Readings with weight w add (w r)^2 and count as w.
-// @param consistency E[(w r)^2] / (E[w] s^2) of normal residuals under a robust loss; 1 without one.
+// @param consistency E[(w r)^2] / (E[w] s^2) of normal residuals under a robust loss; 1 without
+// one.
 ModelError EstimateModelError(const Problem& problem, const Estimate& estimate,
                               const std::vector<int>& active, const ModelError& current,
                               double consistency = 1);

@@ -200,8 +200,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, ResidualLaws,
                          ::testing::Values(ObservationKind::kPose, ObservationKind::kPoint,
                                            ObservationKind::kPointAxis,
                                            ObservationKind::kCoordinates,
-                                           ObservationKind::kDistance,
-                                           ObservationKind::kPlane),
+                                           ObservationKind::kDistance, ObservationKind::kPlane),
                          [](const auto& info) { return std::string(KindOf(info.param).name); });
 
 }  // namespace

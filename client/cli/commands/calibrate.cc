@@ -113,6 +113,9 @@ absl::StatusOr<std::optional<OutputFile>> OpenOutput(const CalibrateOptions& opt
 // What must not be applied is not handed on to compensation.
 std::string NextAfter(const v1::Calibration& calibration, const std::string& next_step) {
   if (calibration.report().verdict() != "do_not_apply") return next_step;
+  const v1::CalibrationReport& report = calibration.report();
+  if (report.has_change() && report.change().names_size() > 0 && !report.change().real())
+    return "go on with the earlier calibration; it still holds";
   return "find the cause first: the reasons above, then units, order of joints and robot file";
 }
 

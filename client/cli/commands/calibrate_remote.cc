@@ -41,7 +41,12 @@ absl::StatusOr<v1::CalibrationJob> CreateJob(const client::Client& client,
       options.identification,
       [&](const std::string& typed) -> absl::StatusOr<v1::Calibration> {
         v1::GetCalibrationRequest get;
-        TRUEPOSE_ASSIGN_OR_RETURN(*get.mutable_name(), CalibrationName(typed));
+        const auto name = CalibrationName(typed);
+        if (!name.ok())
+          return OptionFault(
+              "--prior", typed,
+              "none, tolerance, a file of --output, or a calibration such as ur10#1");
+        get.set_name(*name);
         return client.GetCalibration(get);
       },
       request.mutable_options()));
