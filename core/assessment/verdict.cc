@@ -61,6 +61,21 @@ void JudgeSizes(const Eigen::VectorXd& lambda, const ParameterSet& parameters, V
   }
 }
 
+constexpr double kMostUnexplained_m = 5e-3;
+constexpr double kMostUnexplained_rad = 0.5 * std::numbers::pi / 180;
+
+void JudgeUnexplained(const ModelError& error, Verdict* verdict) {
+  if (error.position_sd_m <= kMostUnexplained_m && error.rotation_sd_rad <= kMostUnexplained_rad)
+    return;
+  verdict->decision = Decision::kDoNotApply;
+  verdict->reasons.push_back(absl::StrFormat(
+      "%.3g mm and %.3g deg stay unexplained, beyond %.3g mm or %.3g deg: the readings are not "
+      "those of this robot; check the units, the order of the joints, the anchors and the robot "
+      "file",
+      1e3 * error.position_sd_m, error.rotation_sd_rad * 180 / std::numbers::pi,
+      1e3 * kMostUnexplained_m, kMostUnexplained_rad * 180 / std::numbers::pi));
+}
+
 }  // namespace
 
 const char* Name(Decision decision) {
@@ -104,6 +119,7 @@ Verdict Judge(const Identification& identification, const ParameterSet& paramete
   JudgeControlSize(control_before.size(), &verdict);
   if (!control_before.empty()) JudgeControl(control_before, control_after, &verdict);
   JudgeSizes(identification.estimate.lambda, parameters, &verdict);
+  JudgeUnexplained(identification.model_error, &verdict);
   if (identification.summary.termination != Termination::kConverged) {
     verdict.decision = Decision::kDoNotApply;
     verdict.reasons.push_back(

@@ -6,6 +6,7 @@
 #include "core/base/status_macros.h"
 #include "core/calibrate/assess.h"
 #include "core/calibrate/checks.h"
+#include "core/calibrate/gauge.h"
 #include "core/calibrate/parameter_choice.h"
 #include "core/calibrate/scope.h"
 #include "core/calibrate/sets.h"
@@ -171,6 +172,8 @@ absl::StatusOr<CalibrationResult> Calibrate(const CalibrationProblem& problem,
   TRUEPOSE_RETURN_IF_ERROR(IdentifyParameters(&run, 0.3, 0.5, &result));
   TRUEPOSE_RETURN_IF_ERROR(SelectParameters(&run, &result));
   TRUEPOSE_RETURN_IF_ERROR(AddChosenEffects(&run, &result));
+  CentreEffects(run.part.problem, result.identification.set.active,
+                &result.identification.estimate);
   if (options.require_complete)
     TRUEPOSE_RETURN_IF_ERROR(CheckComplete(result.identification.set, result.candidates));
   if (HoldsTheRest(options)) {

@@ -103,6 +103,13 @@ void EffectColumns(const Model& model, const double* q, const Conditions& condit
 
 }  // namespace
 
+Eigen::VectorXd EffectShift(const Model& model, const Eigen::VectorXd& q,
+                            const Eigen::VectorXd& lambda, const Conditions& conditions) {
+  Eigen::VectorXd moved = q;
+  MovedJoints(model, q.data(), lambda.data(), conditions, &moved);
+  return moved - q;
+}
+
 Pose Forward(const Model& model, const Eigen::VectorXd& q, const Eigen::VectorXd& lambda,
              const Conditions& conditions) {
   Eigen::VectorXd moved, mu;

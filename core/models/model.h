@@ -49,6 +49,10 @@ struct Model {
 Pose Forward(const Model& model, const Eigen::VectorXd& q, const Eigen::VectorXd& lambda,
              const Conditions& conditions = {});
 
+// What the effects add to the chain joints q as read.
+Eigen::VectorXd EffectShift(const Model& model, const Eigen::VectorXd& q,
+                            const Eigen::VectorXd& lambda, const Conditions& conditions);
+
 // Pose and Jacobians of one configuration; reused from call to call, one per thread. Columns are
 // twists at the origin of B, as those of Sweep.
 struct ModelSweep {

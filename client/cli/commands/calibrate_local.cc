@@ -19,8 +19,10 @@ absl::StatusOr<formats::RobotFile> LoadRobotAndOptions(CalibrateOptions* options
   FaultList faults;
   absl::StatusOr<formats::RobotFile> robot = LoadRobot(options->robot, options->ends);
   faults.AddAll(robot.status());
-  faults.AddAll(WriteIdentificationOptions(options->identification, {}, &options->calibration));
-  if (faults.empty())
+  const absl::Status written =
+      WriteIdentificationOptions(options->identification, {}, &options->calibration);
+  faults.AddAll(written);
+  if (written.ok())
     faults.AddAll(AsTyped(convert::ValidateOptions(options->calibration), *options));
   if (!faults.empty()) return faults.ToStatus();
   return robot;
