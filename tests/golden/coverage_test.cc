@@ -1,6 +1,6 @@
 // Stated deviations of parameters are those of their errors (experiments E2): sessions of one
 // small robot, new errors and noise in each. With 500 sessions a perfect estimator fails "93 to
-// 97 % of each parameter" more often than not, so the bounds follow the number of sessions.
+// 97 % of each parameter" more often than not: that is asked of 5,000.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -154,22 +154,31 @@ Coverage CoverageOf(bool joint_noise, int sessions) {
   return coverage;
 }
 
+// What a perfect estimator's shares and ratios keep to: of 18 parameters and 100 sessions each
+// share has a standard error of 2.2 %, RMS / Cramer-Rao one of 7 % and sqrt(NEES / p) one of 1.7 %;
+// of 5,000 sessions a seventh of that.
+struct Bounds {
+  double pooled, nees, lowest, highest, rms;
+};
+constexpr Bounds kFew = {0.02, 0.05, 0.87, 1, 1.25}, kMany = {0.01, 0.02, 0.93, 0.97, 1.05};
+
 class ParameterCoverage : public ::testing::TestWithParam<bool> {};
 
 // Would catch a covariance of another scale, joint noise that does not reach R, weights that do not
-// settle, and an estimator that is not efficient.
+// settle, and an estimator that is not efficient. Measured with 5,000 sessions: pooled 94.86 and
+// 94.69 %, each 93.8 to 95.4 and 94.3 to 95.0 %, RMS / Cramer-Rao at most 1.025 and 1.022,
+// sqrt(NEES / p) 1.007 and 1.015 (additive noise, noise of the joints); with 500: pooled 95.04 and
+// 95.14 %, each 92.4 to 96.6 and 93.6 to 96.2 %.
 TEST_P(ParameterCoverage, NinetyFivePercent) {
-  const int sessions = testing::Draws(500, 5000);
+  const int sessions = testing::Draws(100, 5000);
+  const Bounds& bounds = sessions < 5000 ? kFew : kMany;
   const Coverage coverage = CoverageOf(GetParam(), sessions);
   EXPECT_EQ(coverage.inside.size(), 18);
-  EXPECT_NEAR(coverage.inside.mean(), 0.95, 0.01);
-  EXPECT_NEAR(coverage.nees_ratio, 1, 0.02);
-  // Each parameter's share has a standard error of 1 % (0.3 % of 5,000 sessions); of 18 parameters
-  // one lies four of them off once in a thousand runs.
-  EXPECT_GE(coverage.inside.minCoeff(), sessions < 5000 ? 0.905 : 0.93);
-  EXPECT_LE(coverage.inside.maxCoeff(), sessions < 5000 ? 0.985 : 0.97);
-  // Standard error 3 % (1 %).
-  EXPECT_LE(coverage.rms.maxCoeff(), sessions < 5000 ? 1.13 : 1.05);
+  EXPECT_NEAR(coverage.inside.mean(), 0.95, bounds.pooled);
+  EXPECT_NEAR(coverage.nees_ratio, 1, bounds.nees);
+  EXPECT_GE(coverage.inside.minCoeff(), bounds.lowest);
+  EXPECT_LE(coverage.inside.maxCoeff(), bounds.highest);
+  EXPECT_LE(coverage.rms.maxCoeff(), bounds.rms);
 }
 
 INSTANTIATE_TEST_SUITE_P(Noise, ParameterCoverage, ::testing::Values(false, true),

@@ -100,7 +100,8 @@ std::string Reasons(const Verdict& verdict) {
 }
 
 // In 400 of 400 seeds the control set is worse by 1.25 at least, 0.92 -> 2.45 mm on average, while
-// the calibration set improves, 0.41 -> 0.24. Would catch a verdict by the calibration set.
+// the calibration set improves, 0.41 -> 0.24. Would catch a verdict by the calibration
+// set. 100 seeds measured 0.88 -> 2.71 mm, ratios of 1.29 and more, do_not_apply in all.
 TEST(DoNotApply, EightPosesAndAGear) {
   const Design trap = {0.03 * kDeg, 0, 0, 8, 0.3};
   const int sessions = testing::Draws(20, 100);
@@ -118,11 +119,11 @@ TEST(DoNotApply, EightPosesAndAGear) {
   }
   std::cout << "control " << before * 1e3 << " -> " << after * 1e3 << " mm, least ratio "
             << least_ratio << "\n";
-  EXPECT_GT(least_ratio, 1);
+  EXPECT_GE(least_ratio, 1.25);
 }
 
 // A robot with errors of manufacture, measured well: 0.58 -> 0.19 mm on average. Would catch a
-// verdict that is merely afraid.
+// verdict that is merely afraid. 100 seeds measured 0.65 -> 0.194 mm.
 TEST(DoNotApply, NeverForSixtyPosesOfARobotWithErrors) {
   const Design sound = {0.01 * kDeg, 3e-4, 0.03 * kDeg, 60, 1};
   const int sessions = testing::Draws(20, 100);

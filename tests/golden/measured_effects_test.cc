@@ -24,6 +24,7 @@ Pair BothOf(v1::CalibrationInput input, const std::string& split) {
   return {geometry_mm, testing::ControlRms(testing::MustCalibrate(input))};
 }
 
+// 20 halves measured a median of 0.357 mm, 0.374 mm at most, and at most 0.891 of the geometry's.
 // Would catch effects that are not found, not fitted or not carried to the control set.
 TEST(MeasuredEffects, Ur10SeriesDRandomHalves) {
   std::vector<double> effects_mm;
@@ -49,8 +50,8 @@ struct FewRows {
 class EffectsOfFewRows : public ::testing::TestWithParam<FewRows> {};
 
 // The trap: from 50 rows BIC and cross-validation both take terms that hurt (0.551 -> 0.564 mm).
-// 1 %: a term that helps the calibration rows by chance costs less than that when the choice is
-// sound.
+// 40 draws of 50 rows and 20 of 200 and 400 measured 1.000, 1.000 and 0.996 at most. 1 %: a term
+// that helps the calibration rows by chance costs less than that when the choice is sound.
 TEST_P(EffectsOfFewRows, NeverHurt) {
   double largest = 0;
   for (int seed = 1; seed <= testing::Draws(GetParam().few, GetParam().many); ++seed) {

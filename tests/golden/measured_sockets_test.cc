@@ -1,7 +1,8 @@
 // A robot calibrated without any instrument: a Panda whose ball was put into two sockets, 50 mm
 // apart, at six places (panda_3). Figures are of control rows against their own socket's mean, as
 // those of the separate implementations (0.211 and 0.216 even-odd, 0.234 to 0.240 placements left
-// out).
+// out). Measured here: 0.2105 even-odd, 0.196 to 0.235 placements left out, frontright 0.235,
+// distances of sockets within 0.08.
 #include <gtest/gtest.h>
 
 #include <iostream>

@@ -149,6 +149,12 @@ Found Over(int sessions, const Weighing& weighing) {
   return found;
 }
 
+// Of one session the ratio of squares has a relative deviation of 0.4, since a few directions make
+// most of it: the root of the mean has a standard error of 0.014 of 200 sessions and 0.03 of 40,
+// where 0.1 is three of them; shares inside go with it. 200 sessions measured 0.977 and 96.1 %, and
+// 1.002 and 95.3 % of control readings. s_model can't be below zero, so the prediction is on the
+// safe side where the joints' noise is most of it: with all noise known, 1,000 sessions measured
+// 0.992 (0.007) and 95.4 %.
 TEST(PredictedUncertainty, IsThatOfNewRobots) {
   const int sessions = testing::Draws(40, 200);
   const Found found = Over(sessions, {});
@@ -159,7 +165,7 @@ TEST(PredictedUncertainty, IsThatOfNewRobots) {
 }
 
 // The negative control: noise of the joints left out of R and nothing in its place. Would catch a
-// test that nothing can fail.
+// test that nothing can fail. 200 sessions measured 3.69 and 10.7 %.
 TEST(PredictedUncertainty, FailsWithoutTheJoints) {
   Weighing weighing;
   weighing.joint_sd = 0;
