@@ -19,20 +19,6 @@ Eigen::Matrix3d RotationWithZ(const Eigen::Vector3d& axis) {
   return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis).toRotationMatrix();
 }
 
-// Target orientation by averaging over the readings that show one; identity when none does.
-Eigen::Matrix3d AverageToolRotation(const Readings& readings, const Eigen::Matrix3d& R_MB) {
-  Eigen::Matrix3d rotations = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d axes = Eigen::Vector3d::Zero();
-  for (const NominalReading& r : readings) {
-    const Eigen::Matrix3d R_FM = (R_MB * r.X_BF.R).transpose();
-    if (r.reading->kind == ObservationKind::kPose) rotations += R_FM * r.reading->X_MT.R;
-    if (r.reading->kind == ObservationKind::kPointAxis) axes += R_FM * r.reading->axis_M;
-  }
-  if (rotations.norm() > 0) return NearestRotation(rotations);
-  if (axes.norm() > 1e-9) return RotationWithZ(axes.normalized());
-  return Eigen::Matrix3d::Identity();
-}
-
 Eigen::Matrix3d AverageBaseRotation(const Readings& readings, const Eigen::Matrix3d& R_FT) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (const NominalReading& r : readings) sum += r.reading->X_MT.R * (r.X_BF.R * R_FT).transpose();
@@ -81,7 +67,26 @@ FramePair FromToolPosition(const Readings& readings, const Eigen::Vector3d& p_FT
   return pair;
 }
 
-// The 24 rotations that carry axes to axes.
+}  // namespace
+
+bool ShowsPoint(const Reading& reading) {
+  return reading.kind == ObservationKind::kPose || reading.kind == ObservationKind::kPoint ||
+         reading.kind == ObservationKind::kPointAxis;
+}
+
+Eigen::Matrix3d AverageToolRotation(const Readings& readings, const Eigen::Matrix3d& R_MB) {
+  Eigen::Matrix3d rotations = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d axes = Eigen::Vector3d::Zero();
+  for (const NominalReading& r : readings) {
+    const Eigen::Matrix3d R_FM = (R_MB * r.X_BF.R).transpose();
+    if (r.reading->kind == ObservationKind::kPose) rotations += R_FM * r.reading->X_MT.R;
+    if (r.reading->kind == ObservationKind::kPointAxis) axes += R_FM * r.reading->axis_M;
+  }
+  if (rotations.norm() > 0) return NearestRotation(rotations);
+  if (axes.norm() > 1e-9) return RotationWithZ(axes.normalized());
+  return Eigen::Matrix3d::Identity();
+}
+
 std::vector<Eigen::Matrix3d> CubeRotations() {
   std::vector<Eigen::Matrix3d> rotations;
   for (int x = 0; x < 6; ++x) {
@@ -97,7 +102,6 @@ std::vector<Eigen::Matrix3d> CubeRotations() {
   return rotations;
 }
 
-// Targets sit within some tenths of a metre of the flange.
 std::vector<Eigen::Vector3d> ToolPositions() {
   std::vector<Eigen::Vector3d> positions = {Eigen::Vector3d::Zero()};
   for (double length : {0.1, 0.3}) {
@@ -108,8 +112,6 @@ std::vector<Eigen::Vector3d> ToolPositions() {
   }
   return positions;
 }
-
-}  // namespace
 
 std::vector<FramePair> StartCandidates(const Readings& readings, const std::optional<Pose>& X_FT) {
   std::vector<FramePair> pairs;

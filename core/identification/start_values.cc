@@ -4,92 +4,27 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/base/fault.h"
-#include "core/identification/prediction.h"
-#include "core/identification/solve.h"
-#include "core/identification/start_candidates.h"
+#include "core/identification/start_pair.h"
 
 namespace truepose {
 namespace {
 
-constexpr int kReadingsToTry = 60;
-constexpr int kStartsToRefine = 12;
-// A robot that is off by millimetres and a tenth of a degree; only the ratio matters here.
-constexpr ModelError kStartWeights = {2e-3, 3e-3};
-
-// The part of the problem with one placement and one target.
-Problem PairProblem(const Problem& problem, int placement, int target, int most) {
+// The part of the problem with one placement and one target. @param offsets which of the whole each
+// of the pair's offsets is.
+Problem PairProblem(const Problem& problem, int placement, int target, std::vector<int>* offsets) {
   Problem pair{problem.model, {}, {""}, {""}};
   for (const Reading& reading : problem.readings) {
-    if (reading.placement == placement && reading.target == target)
-      pair.readings.push_back(reading);
+    if (reading.placement != placement || reading.target != target) continue;
+    pair.readings.push_back(reading);
+    Reading& last = pair.readings.back();
+    last.placement = last.target = 0;
+    if (reading.offset < 0) continue;
+    const auto it = std::find(offsets->begin(), offsets->end(), reading.offset);
+    last.offset = static_cast<int>(it - offsets->begin());
+    if (it == offsets->end()) offsets->push_back(reading.offset);
   }
-  const int count = static_cast<int>(pair.readings.size());
-  if (count > most) {
-    std::vector<Reading> spaced;
-    for (int i = 0; i < most; ++i)
-      spaced.push_back(pair.readings[static_cast<size_t>(i) * count / most]);
-    pair.readings = std::move(spaced);
-  }
-  for (Reading& reading : pair.readings) reading.placement = reading.target = 0;
+  pair.offsets.resize(offsets->size());
   return pair;
-}
-
-std::vector<NominalReading> WithNominal(const Problem& problem) {
-  const Eigen::VectorXd nominal = Eigen::VectorXd::Zero(problem.model->parameters.size());
-  std::vector<NominalReading> readings;
-  for (const Reading& reading : problem.readings) {
-    readings.push_back({&reading, Forward(*problem.model, reading.q, nominal, reading.conditions)});
-  }
-  return readings;
-}
-
-double StartCost(const Problem& problem, const Estimate& estimate) {
-  return CostOf(problem, estimate, WhitenersOf(problem, estimate, kStartWeights));
-}
-
-Estimate EstimateOf(const Problem& problem, const FramePair& pair) {
-  Estimate estimate = NominalEstimate(problem);
-  estimate.X_MB[0] = pair.X_MB;
-  estimate.X_FT[0] = pair.X_FT;
-  return estimate;
-}
-
-struct Start {
-  double cost;
-  Estimate estimate;
-};
-
-bool ByCost(const Start& a, const Start& b) { return a.cost < b.cost; }
-
-std::vector<Start> BestStarts(const Problem& problem, const std::optional<Pose>& X_FT) {
-  std::vector<Start> starts;
-  for (const FramePair& pair : StartCandidates(WithNominal(problem), X_FT)) {
-    Estimate estimate = EstimateOf(problem, pair);
-    starts.push_back({StartCost(problem, estimate), std::move(estimate)});
-  }
-  std::stable_sort(starts.begin(), starts.end(), ByCost);
-  if (starts.size() > kStartsToRefine) starts.resize(kStartsToRefine);
-  return starts;
-}
-
-double Refine(const Problem& problem, Estimate* estimate) {
-  SolveOptions options;
-  options.max_iterations = 50;
-  options.function_tolerance = 1e-9;
-  Solve(problem, kStartWeights, ExternalCandidates(problem), options, Hooks{}, estimate);
-  return StartCost(problem, *estimate);
-}
-
-// Both frames of a pair of which nothing is known.
-FramePair SolvePair(const Problem& problem, int placement, int target,
-                    const std::optional<Pose>& X_FT) {
-  const Problem few = PairProblem(problem, placement, target, kReadingsToTry);
-  std::vector<Start> starts = BestStarts(few, X_FT);
-  for (Start& start : starts) start.cost = Refine(few, &start.estimate);
-  Start& best = *std::min_element(starts.begin(), starts.end(), ByCost);
-  Refine(PairProblem(problem, placement, target, static_cast<int>(problem.readings.size())),
-         &best.estimate);
-  return {best.estimate.X_MB[0], best.estimate.X_FT[0]};
 }
 
 // Spreads from known frames to those that share readings with them.
@@ -101,8 +36,14 @@ class Spreader {
         estimate_(NominalEstimate(problem)),
         counts_(problem.placement_count(), std::vector<int>(problem.target_count(), 0)),
         base_known_(problem.placement_count(), false),
-        tool_known_(problem.target_count(), false) {
-    for (const Reading& reading : problem.readings) ++counts_[reading.placement][reading.target];
+        tool_known_(problem.target_count(), false),
+        offsets_(problem.offsets.size()) {
+    for (const Reading& reading : problem.readings)
+      counts_[reading.placement][reading.target] += RowsOf(reading);
+    for (size_t k = 0; k < options.offset_known.size(); ++k) {
+      if (options.offset_known[k])
+        offsets_[k] = options.known.offsets(static_cast<Eigen::Index>(k));
+    }
     for (size_t p = 0; p < options.base_known.size(); ++p) {
       if (options.base_known[p]) estimate_.X_MB[p] = options.known.X_MB[p], base_known_[p] = true;
     }
@@ -111,8 +52,8 @@ class Spreader {
     }
   }
 
-  // Solves the largest pair that touches a known frame, else the largest of all, until all frames
-  // are known.
+  // Solves the pair with the most measured values that touches a known frame, else the largest of
+  // all, until all frames are known.
   absl::StatusOr<Estimate> Run(const Hooks& hooks) {
     while (std::count(base_known_.begin(), base_known_.end(), false) +
                std::count(tool_known_.begin(), tool_known_.end(), false) >
@@ -122,6 +63,7 @@ class Spreader {
       if (placement < 0) return Unseen();
       Solve(placement, target);
     }
+    SetOffsets(problem_, offsets_, &estimate_);
     return estimate_;
   }
 
@@ -141,16 +83,17 @@ class Spreader {
   }
 
   void Solve(int p, int t) {
-    const Problem pair = PairProblem(problem_, p, t, static_cast<int>(problem_.readings.size()));
-    if (tool_known_[t]) {
-      estimate_.X_MB[p] = BaseFromTool(WithNominal(pair), estimate_.X_FT[t]);
-    } else if (base_known_[p]) {
-      estimate_.X_FT[t] = ToolFromBase(WithNominal(pair), estimate_.X_MB[p]);
-    } else {
-      const FramePair frames = SolvePair(problem_, p, t, options_.X_FT);
-      estimate_.X_MB[p] = frames.X_MB;
-      estimate_.X_FT[t] = frames.X_FT;
-    }
+    std::vector<int> offsets;
+    const Problem pair = PairProblem(problem_, p, t, &offsets);
+    PairKnown known;
+    if (base_known_[p]) known.X_MB = estimate_.X_MB[p];
+    if (tool_known_[t]) known.X_FT = estimate_.X_FT[t];
+    for (int offset : offsets) known.offsets.push_back(offsets_[offset]);
+    const Estimate found = SolvePair(pair, known, options_.X_FT);
+    estimate_.X_MB[p] = found.X_MB[0];
+    estimate_.X_FT[t] = found.X_FT[0];
+    for (size_t k = 0; k < offsets.size(); ++k)
+      offsets_[offsets[k]] = found.offsets(static_cast<Eigen::Index>(k));
     base_known_[p] = tool_known_[t] = true;
   }
 
@@ -172,8 +115,9 @@ class Spreader {
   const Problem& problem_;
   const StartOptions& options_;
   Estimate estimate_;
-  std::vector<std::vector<int>> counts_;
+  std::vector<std::vector<int>> counts_;  // of measured values
   std::vector<bool> base_known_, tool_known_;
+  std::vector<std::optional<double>> offsets_;
 };
 
 }  // namespace

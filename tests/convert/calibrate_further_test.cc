@@ -1,6 +1,7 @@
 // Robots that were measured with less than a pose calibrate from file-like rows to the noise.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -146,6 +147,59 @@ TEST(CalibrateFurther, DistancesToUnknownPoints) {
     row->set_anchor("anchor " + std::to_string(i % 4));
   });
   ExpectNoise(measured.Calibrate(), 1);
+}
+
+// The point features of a fixture, whose places are known in one frame.
+constexpr std::array<std::array<double, 3>, 4> kKnown = {
+    {{0.5, 0.5, 0.1}, {1, -0.7, 0.3}, {-0.6, 0.9, 0.8}, {0.2, 0.2, 1.5}}};
+
+// Rows come in pairs of one calibration and one control row, so that both see every anchor.
+int AnchorOf(int row) { return row / 2 % 4; }
+
+v1::Reading* SeeDistance(int i, const Pose& X_MT, v1::Reading* row) {
+  row->set_distance_m((X_MT.p - Eigen::Vector3d(kKnown[AnchorOf(i)].data())).norm());
+  row->set_anchor("anchor " + std::to_string(AnchorOf(i)));
+  return row;
+}
+
+void AddKnownAnchors(v1::CalibrationOptions* options) {
+  for (size_t k = 0; k < kKnown.size(); ++k) {
+    v1::Feature* feature = options->mutable_fixture()->add_features();
+    feature->set_name("anchor " + std::to_string(k));
+    feature->set_kind(v1::FEATURE_POINT);
+    *feature->mutable_pose() =
+        ToProto(Pose{Eigen::Matrix3d::Identity(), Eigen::Vector3d(kKnown[k].data())});
+  }
+}
+
+// Catches: a start at the wrong minimum (51 mm before, 50.7 after), anchors that do not share the
+// fixture's frame.
+TEST(CalibrateFurther, DistancesToKnownPoints) {
+  Measured measured;
+  AddKnownAnchors(&measured.options_);
+  measured.See(SeeDistance);
+  const CalibrationResult result = measured.Calibrate();
+  EXPECT_EQ(Rank(result), 27);
+  ExpectNoise(result, 1);
+}
+
+// Catches: a constant that no start looks for, to points that are known and to others.
+TEST(CalibrateFurther, BeamsWithAnUnknownConstant) {
+  constexpr double kConstant_m = -0.75;
+  for (const bool known : {true, false}) {
+    SCOPED_TRACE(known);
+    Measured measured;
+    if (known) AddKnownAnchors(&measured.options_);
+    measured.See([](int i, const Pose& X_MT, v1::Reading* row) {
+      SeeDistance(i, X_MT, row)->set_distance_m(row->distance_m() + kConstant_m);
+      row->set_beam("laser");
+    });
+    const CalibrationResult result = measured.Calibrate();
+    ExpectNoise(result, 1);
+    ASSERT_EQ(result.identification.estimate.offsets.size(), 1);
+    // Fifty times the noise: the constant is as good as the lengths that it is told apart from.
+    EXPECT_NEAR(result.identification.estimate.offsets(0), kConstant_m, 1e-3);
+  }
 }
 
 }  // namespace
