@@ -140,44 +140,59 @@ std::vector<Term> Terms(const Problem& problem, const Estimate& estimate,
   return terms;
 }
 
-// Mean stated variance of the group's rows.
-double MeanStated(const std::vector<Term>& terms, int group) {
-  double sum = 0, rows = 0;
-  for (const Term& term : terms) {
-    const Eigen::Index p = term.positions, n = term.stated.rows() - p;
-    sum += group == 0 ? term.stated.diagonal().head(p).sum() : term.stated.diagonal().tail(n).sum();
-    rows += static_cast<double>(group == 0 ? p : n);
+// The two components, one of which is varied while the other stands.
+class Likelihood {
+ public:
+  Likelihood(std::vector<Term> terms, double consistency)
+      : terms_(std::move(terms)), consistency_(consistency) {}
+
+  // log(quadratic / trace) of a group when its deviation is `sd`: falls with sd, 0 at the estimate.
+  double Imbalance(int group, double sd, ModelError error) const {
+    (group == 0 ? error.position_sd_m : error.rotation_sd_rad) = sd;
+    Sides sides;
+    for (const Term& term : terms_) AddTerm(term, error, consistency_, &sides);
+    if (!(sides.trace[group] > 0)) return 0;
+    return std::log(std::max(sides.quadratic[group], 1e-300) / sides.trace[group]);
   }
-  return rows > 0 ? sum / rows : 0;
-}
 
-// Below a hundredth of what is stated s_model changes no weight by more than 1e-4, and only crawls
-// towards zero: it is there already.
-double SettledSd(double sd, double mean_stated, double floor) {
-  return sd * sd < 1e-4 * mean_stated ? floor : sd;
-}
+  // The deviation of a group, the other held: bisection of its logarithm between the floor and
+  // where the imbalance has turned.
+  double Solve(int group, const ModelError& error, double floor) const {
+    if (Imbalance(group, floor, error) <= 0) return floor;
+    double low = floor,
+           high = std::max(group == 0 ? error.position_sd_m : error.rotation_sd_rad, 10 * floor);
+    for (int i = 0; i < 60 && Imbalance(group, high, error) > 0; ++i) {
+      low = high;
+      high *= 4;
+    }
+    while (high > low * (1 + 1e-9)) {
+      const double middle = std::sqrt(low * high);
+      (Imbalance(group, middle, error) > 0 ? low : high) = middle;
+    }
+    return std::sqrt(low * high);
+  }
 
-// s^2 <- s^2 sqrt(quadratic / trace), which grows the likelihood at every step.
+ private:
+  std::vector<Term> terms_;
+  double consistency_;
+};
+
+// One component after the other, until neither moves: they hardly depend on each other.
 ModelError ByLikelihood(const Problem& problem, const Estimate& estimate,
                         const std::vector<int>& active, ModelError error, double consistency) {
-  const std::vector<Term> terms = Terms(problem, estimate, active, error);
-  for (int i = 0; i < 200; ++i) {
-    Sides sides;
-    for (const Term& term : terms) AddTerm(term, error, consistency, &sides);
-    const auto step = [&](int group, double sd, double floor) {
-      if (!(sides.trace[group] > 0)) return sd;
-      return std::max(floor, sd * std::pow(sides.quadratic[group] / sides.trace[group], 0.25));
-    };
-    const ModelError next = {step(0, error.position_sd_m, kPositionFloor_m),
-                             step(1, error.rotation_sd_rad, kRotationFloor_rad)};
-    const double change = std::abs(std::log(next.position_sd_m / error.position_sd_m)) +
-                          std::abs(std::log(next.rotation_sd_rad / error.rotation_sd_rad));
-    error = next;
-    if (change < 1e-9) break;
+  const Likelihood likelihood(Terms(problem, estimate, active, error), consistency);
+  bool has_rotation = false;
+  for (const Reading& reading : problem.readings)
+    has_rotation = has_rotation || RotationRowsOf(reading) > 0;
+  for (int i = 0; i < 10; ++i) {
+    const ModelError last = error;
+    error.position_sd_m = likelihood.Solve(0, error, kPositionFloor_m);
+    if (has_rotation) error.rotation_sd_rad = likelihood.Solve(1, error, kRotationFloor_rad);
+    if (std::abs(std::log(last.position_sd_m / error.position_sd_m)) +
+            std::abs(std::log(last.rotation_sd_rad / error.rotation_sd_rad)) <
+        1e-7)
+      break;
   }
-  error.position_sd_m = SettledSd(error.position_sd_m, MeanStated(terms, 0), kPositionFloor_m);
-  error.rotation_sd_rad =
-      SettledSd(error.rotation_sd_rad, MeanStated(terms, 1), kRotationFloor_rad);
   return error;
 }
 
