@@ -38,9 +38,14 @@ std::vector<Group> GroupsOf(const std::vector<PlaneRow>& rows) {
   return groups;
 }
 
-// r = R_MB^T n. Measured values that vary with x give it by a linear fit, sign included; values
-// that are all the same give |r| = 0 there, and r is the direction of least spread, either way.
-std::vector<Eigen::Vector3d> NormalsInB(const Group& group) {
+// The points and heights of a group, centred, as moments in principal axes, least spread first.
+struct Moments {
+  Eigen::Matrix3d axes;
+  Eigen::Vector3d spread;      // sums of x^2
+  Eigen::Vector3d covariance;  // sums of x m
+};
+
+Moments MomentsOf(const Group& group) {
   const Eigen::Index k = static_cast<Eigen::Index>(group.size());
   Eigen::MatrixX3d x(k, 3);
   Eigen::VectorXd m(k);
@@ -50,10 +55,38 @@ std::vector<Eigen::Vector3d> NormalsInB(const Group& group) {
   }
   x.rowwise() -= x.colwise().mean().eval();
   m.array() -= m.mean();
-  const Eigen::Vector3d r = x.completeOrthogonalDecomposition().solve(m);
-  if (r.norm() > 0.5) return {r.normalized()};
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(x.transpose() * x);
-  return {spread.eigenvectors().col(0), -spread.eigenvectors().col(0)};
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(x.transpose() * x);
+  return {eigen.eigenvectors(), eigen.eigenvalues(),
+          eigen.eigenvectors().transpose() * (x.transpose() * m)};
+}
+
+// (spread + mu)^-1 covariance; mu = 0 is the linear fit.
+Eigen::Vector3d FitAt(const Moments& moments, double mu) {
+  return moments.covariance.cwiseQuotient(
+      (moments.spread.array() + mu).max(1e-12 * moments.spread(2)).matrix());
+}
+
+// The fit of length 1: |r| falls with mu, from any length where mu takes all of the least spread.
+Eigen::Vector3d UnitFit(const Moments& moments) {
+  double low = -moments.spread(0), high = moments.covariance.norm() + moments.spread(2);
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (low + high) / 2;
+    (FitAt(moments, middle).norm() > 1 ? low : high) = middle;
+  }
+  return FitAt(moments, high).normalized();
+}
+
+// r = R_MB^T n. Measured values that vary much with x give it by a linear fit, sign included. A
+// guessed target blurs x by more than the steps of a block, and then the fit of length 1 is needed;
+// its sign along the direction of least spread is not sure, and arbitrary at a single height.
+std::vector<Eigen::Vector3d> NormalsInB(const Group& group) {
+  const Moments moments = MomentsOf(group);
+  const Eigen::Vector3d linear = FitAt(moments, 0);
+  if (linear.norm() > 0.8) return {moments.axes * linear.normalized()};
+  Eigen::Vector3d r = UnitFit(moments);
+  if (moments.covariance.norm() < 1e-9 * moments.spread(2)) r = Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d other(-r.x(), r.y(), r.z());
+  return {moments.axes * r, moments.axes * other};
 }
 
 }  // namespace

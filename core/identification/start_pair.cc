@@ -24,12 +24,14 @@ bool AllShowPoints(const Problem& pair) {
   return std::all_of(pair.readings.begin(), pair.readings.end(), ShowsPoint);
 }
 
-// Sorts, anchors and planes side by side, so that evenly spaced readings have some of each,
-// whatever the order they were measured in.
+// Sorts, anchors, and planes with their heights side by side, so that evenly spaced readings have
+// some of each, whatever the order they were measured in.
 bool BySort(const Reading& a, const Reading& b) {
   const auto key = [](const Reading& r) {
+    const double height =
+        r.kind == ObservationKind::kPlane ? r.normal_M.dot(r.X_MT.p) : r.anchor_M.x();
     return std::tuple(r.kind, r.offset, r.coordinates, r.anchor_M.x(), r.anchor_M.y(),
-                      r.anchor_M.z(), r.normal_M.x(), r.normal_M.y(), r.normal_M.z());
+                      r.anchor_M.z(), r.normal_M.x(), r.normal_M.y(), r.normal_M.z(), height);
   };
   return key(a) < key(b);
 }

@@ -173,6 +173,7 @@ std::vector<Sort> Sorts() {
        [](int, SetUpOf* s) {
          AddCoordinates({true, true, false}, s);
        }},
+      {"three_planes", 1, [](int i, SetUpOf* s) { AddContact(i % 3, i % 2 == 0 ? 0 : 0.15, s); }},
       {"known_anchor", 1, [](int, SetUpOf* s) { s->AddDistance(0); }},
       {"two_known_anchors", 1, [](int i, SetUpOf* s) { s->AddDistance(i % 2); }},
       {"three_known_anchors", 1, [](int i, SetUpOf* s) { s->AddDistance(i % 3); }},
