@@ -91,8 +91,8 @@ bool Correlated(const Problem& problem) {
 struct Term {
   int positions;
   Residual r;
-  ResidualMatrix stated;      // R without s_model, weight taken out
-  ResidualMatrix prediction;  // J C J'
+  ResidualMatrix stated;    // R without s_model, weight taken out
+  ResidualMatrix leverage;  // W J C J' W': the parameters' share, of whitened rows
   double weight;
 };
 
@@ -101,14 +101,18 @@ struct Sides {
   double quadratic[2] = {0, 0}, trace[2] = {0, 0};
 };
 
+// The leverage is that of the current weights: as shares of whitened rows it hardly moves with
+// them, and I - leverage stays positive at any trial, which a fixed C would not.
 void AddTerm(const Term& term, const ModelError& error, double consistency, Sides* sides) {
   ResidualMatrix R = term.stated;
   const Eigen::Index n = R.rows(), p = term.positions;
   R.diagonal().head(p).array() += error.position_sd_m * error.position_sd_m;
   R.diagonal().tail(n - p).array() += error.rotation_sd_rad * error.rotation_sd_rad;
-  const ResidualMatrix inverse = R.inverse();
-  const Residual z = inverse * term.r;
-  const ResidualMatrix P = inverse - term.weight * inverse * term.prediction * inverse;
+  const ResidualMatrix L = R.llt().matrixL();
+  const ResidualMatrix W =
+      L.triangularView<Eigen::Lower>().solve(ResidualMatrix(ResidualMatrix::Identity(n, n)));
+  const Residual z = W.transpose() * (W * term.r);
+  const ResidualMatrix P = W.transpose() * (ResidualMatrix::Identity(n, n) - term.leverage) * W;
   sides->quadratic[0] += term.weight * term.weight * z.head(p).squaredNorm();
   sides->quadratic[1] += term.weight * term.weight * z.tail(n - p).squaredNorm();
   sides->trace[0] += consistency * term.weight * P.diagonal().head(p).sum();
@@ -129,8 +133,7 @@ std::vector<Term> Terms(const Problem& problem, const Estimate& estimate,
     const Eigen::Index n = RowsOf(reading);
     if (reading.weight > 0) {
       const double weight = std::exchange(reading.weight, 1.0);
-      const ResidualMatrix unwhiten = whiteners[i].inverse();
-      const Eigen::MatrixXd J_h = unwhiten * J.middleRows(row, n);
+      const Eigen::MatrixXd J_h = J.middleRows(row, n);
       terms.push_back({PositionRowsOf(reading), system.raw.segment(row, n),
                        CovarianceOf(problem, reading, estimate, {0, 0}), J_h * C * J_h.transpose(),
                        weight});
