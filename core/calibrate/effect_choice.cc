@@ -3,24 +3,14 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 
 #include "core/base/random.h"
+#include "core/calibrate/sets.h"
 #include "core/identification/prior.h"
 
 namespace truepose {
 namespace {
-
-// Readings of one row of a session belong together: they share its joints.
-std::vector<int> UnitsOf(const Problem& problem) {
-  std::map<int, int> unit_of_id;
-  std::vector<int> units;
-  for (const Reading& reading : problem.readings)
-    units.push_back(
-        unit_of_id.emplace(reading.id, static_cast<int>(unit_of_id.size())).first->second);
-  return units;
-}
 
 std::vector<int> FoldOfUnits(int units, const EffectChoiceOptions& options) {
   std::vector<int> folds(units);

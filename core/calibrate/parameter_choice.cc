@@ -1,6 +1,6 @@
 #include "core/calibrate/parameter_choice.h"
 
-#include <map>
+#include "core/calibrate/sets.h"
 
 namespace truepose {
 namespace {
@@ -8,16 +8,6 @@ namespace {
 bool IsInBaseSet(const Parameter& parameter) {
   return parameter.role == ParameterRole::kExternal ||
          parameter.role == ParameterRole::kJointOffset || parameter.role == ParameterRole::kLength;
-}
-
-// Readings of one row share its joints: they are never separated.
-std::vector<int> UnitsOf(const Problem& problem) {
-  std::map<int, int> unit_of_id;
-  std::vector<int> units;
-  for (const Reading& reading : problem.readings)
-    units.push_back(
-        unit_of_id.emplace(reading.id, static_cast<int>(unit_of_id.size())).first->second);
-  return units;
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace {
 
 std::string SharedFolder() {
   const char* folder = std::getenv("TRUEPOSE_SHARED");
-  return folder == nullptr ? "/work/shared" : folder;
+  return folder == nullptr ? "../shared" : folder;
 }
 
 class Sockets : public ::testing::Test {

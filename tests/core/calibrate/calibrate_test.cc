@@ -269,5 +269,29 @@ TEST(Calibrate, JointMapIsApplied) {
             1e-9);
 }
 
+// Pose matching: places that are known, joints that are read to 0.005 deg. Would catch weights that
+// crawl towards an unexplained error of nothing: the run ended at its limit and must not be
+// applied.
+TEST(Calibrate, PoseMatchingSettlesItsWeights) {
+  for (uint64_t seed = 1; seed <= 4; ++seed) {
+    SimulateOptions options = Noise(1e-6, 1e-6, 80);
+    options.seed = seed;
+    options.joint_noise_sd = 9e-5;
+    const Simulated simulated(testing::MeasuringArm(), AnyTarget(), options);
+    CalibrationProblem problem = simulated.Problem(ObservationKind::kPointAxis);
+    for (Reading& reading : problem.readings) {
+      reading.joint_sd = Eigen::VectorXd::Constant(5, 9e-5);
+      reading.position_sd_m.setConstant(1e-6);
+      reading.rotation_sd_rad = 1e-6;
+    }
+    const CalibrationResult result = MustCalibrate(problem);
+    EXPECT_EQ(result.identification.summary.termination, Termination::kConverged)
+        << "seed " << seed;
+    // Three deviations of a chi-square with 200 - 25 degrees of freedom.
+    EXPECT_NEAR(result.identification.weighted_residual_variance, 1, 0.33);
+    EXPECT_NE(result.verdict.decision, Decision::kDoNotApply);
+  }
+}
+
 }  // namespace
 }  // namespace truepose
