@@ -56,9 +56,10 @@ double CostOf(const Problem& problem, const Estimate& estimate, const Whiteners&
 //   sum r^2 / (s_stated^2 + s_model^2) = rows - trace of the group's part of the hat matrix,
 // that is the redundancy left after `active` parameters took their share. Where the rows of a
 // reading are correlated (joint noise, a covariance) the equations of restricted maximum likelihood
-// take its place: r'R^-1 I_g R^-1 r = tr(R^-1 I_g) - tr(R^-1 I_g R^-1 J C J'). Where the stated
-// scatter alone already exceeds the residuals s_model is its floor (0.1 um, 1e-8 rad: below any
-// instrument, it only keeps weights finite).
+// take its place: r'R^-1 I_g R^-1 r = tr(R^-1 I_g) - tr(R^-1 I_g R^-1 J C J'),
+// the parameters' share J C J' held as a share of the rows whitened by the current weights. Where
+// the stated scatter alone already exceeds the residuals s_model is its floor (0.1 um, 1e-8 rad:
+// below any instrument, it only keeps weights finite).
 // @param active candidate indices, linearly independent at the estimate.
 // Readings with weight w add (w r)^2 and count as w.
 // @param consistency E[(w r)^2] / (E[w] s^2) of normal residuals under a robust loss; 1 without
