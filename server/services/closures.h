@@ -5,6 +5,8 @@
 
 #include "absl/status/statusor.h"
 #include "google/protobuf/repeated_field.h"
+#include "server/resource/once.h"
+#include "server/services/call_context.h"
 #include "server/store/page.h"
 #include "server/store/store.h"
 
@@ -25,6 +27,19 @@ auto WriteUnless(bool validate_only, store::Store& store, Closure closure)
   });
   if (!absl::IsCancelled(status)) return status;
   return result;
+}
+
+// The same for a request with an id: one effect and one answer for each (server/resource/once.h).
+template <typename Request, typename Closure>
+auto WriteOnce(const CallContext& call, const Request& request, Closure closure)
+    -> std::invoke_result_t<Closure&, store::Transaction&> {
+  using Result = std::invoke_result_t<Closure&, store::Transaction&>;
+  const store::RequestKey key =
+      resource::KeyOf(call.caller.principal, request, request.request_id());
+  return WriteUnless(request.validate_only(), call.store, [&](store::Transaction& transaction) {
+    return resource::Once<typename Result::value_type>(transaction, key,
+                                                       [&](auto& inner) { return closure(inner); });
+  });
 }
 
 // The page_size and page_token of any List request.

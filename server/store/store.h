@@ -66,6 +66,9 @@ class Store {
   const std::string& epoch() const;
   // Revision of the last commit.
   absl::StatusOr<int64_t> Revision();
+  // `told` is called after each Write that has committed, from the writing thread; it must be
+  // quick. One at most: the next replaces it, {} ends it; no call runs or begins after that.
+  void OnCommit(std::function<void()> told);
   const Clock& clock() const;
 
  private:

@@ -9,6 +9,7 @@ std::vector<std::unique_ptr<grpc::Service>> BindServices(const CallContext& call
                                                          rpc::Drain& drain) {
   std::vector<std::unique_ptr<grpc::Service>> services;
   services.push_back(BindRobotService(call, executors));
+  services.push_back(BindPlantService(call, executors));
   services.push_back(BindSessionService(call, executors, drain));
   services.push_back(BindCalibrationService(call, executors, drain));
   return services;
