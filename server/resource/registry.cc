@@ -12,9 +12,9 @@ const google::protobuf::Message* Prototype() {
   return &T::default_instance();
 }
 
-// New function-local state, built once: descriptors of protobuf are not there before main() begins.
-const std::vector<ResourceType>& Registry() {
-  static const std::vector<ResourceType>& types = *new std::vector<ResourceType>{
+// What stands around the robots.
+std::vector<ResourceType> PlantTypes() {
+  return {
       {.kind = v1::KIND_INSTRUMENT,
        .prototype = Prototype<v1::Instrument>(),
        .collection = "instruments",
@@ -43,6 +43,12 @@ const std::vector<ResourceType>& Registry() {
        .collection = "poseSets",
        .of_robot = true,
        .check = CheckPoseSet},
+  };
+}
+
+// What leads to a recalibration.
+std::vector<ResourceType> RecalibrationTypes() {
+  return {
       {.kind = v1::KIND_ROBOT_EVENT,
        .prototype = Prototype<v1::RobotEvent>(),
        .collection = "events",
@@ -74,6 +80,15 @@ const std::vector<ResourceType>& Registry() {
        .collection = "agentReports",
        .check = CheckAgentReport},
   };
+}
+
+// Built at the first call: descriptors of protobuf are not there before main() begins.
+const std::vector<ResourceType>& Registry() {
+  static const std::vector<ResourceType>& types = *[] {
+    auto* all = new std::vector<ResourceType>(PlantTypes());
+    for (ResourceType& type : RecalibrationTypes()) all->push_back(std::move(type));
+    return all;
+  }();
   return types;
 }
 

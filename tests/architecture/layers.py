@@ -34,8 +34,8 @@ ALLOWED = {
     "convert": ("core", "proto", "openssl", "io"),
     "server/store": ("core/base", "proto", "sqlite", "openssl", "io"),
     "server/jobs": ("core/base", "convert", "server/store", "proto", "io", "spdlog"),
-    "server/resource": ("core/base", "proto", "openssl", "io"),
-    "server/rpc": ("core/base", "server/resource", "proto", "grpc", "io", "spdlog"),
+    "server/resource": ("core/base", "convert", "server/store", "proto", "io"),
+    "server/rpc": ("core/base", "proto", "grpc", "io", "spdlog"),
     "server/services": (
         "core/base", "convert", "server/store", "server/jobs", "server/resource", "server/rpc",
         "proto", "grpc", "io", "spdlog"),
