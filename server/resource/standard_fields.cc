@@ -49,15 +49,6 @@ bool DiffersIn(const std::string& name, const Message& a, const Message& b) {
   return !differencer.CompareWithFields(a, b, {Find(a, name)}, {Find(b, name)});
 }
 
-// A UUID of version 4.
-std::string NewUid() {
-  std::string hex = store::RandomHex128();
-  hex[12] = '4';
-  hex[16] = "89ab"[hex[16] % 4];
-  return absl::StrCat(hex.substr(0, 8), "-", hex.substr(8, 4), "-", hex.substr(12, 4), "-",
-                      hex.substr(16, 4), "-", hex.substr(20));
-}
-
 }  // namespace
 
 std::string GetText(const Message& message, const char* field) {
@@ -95,7 +86,7 @@ void PrepareContent(const ResourceType& type, const std::string& principal, Mess
 
 void StampNew(const store::Transaction& transaction, const std::string& name, Message& resource) {
   SetText(resource, "name", name);
-  SetText(resource, "uid", NewUid());
+  SetText(resource, "uid", store::NewUuid());
   SetTime(transaction, "create_time", resource);
   if (const FieldDescriptor* version = VersionField(resource)) {
     resource.GetReflection()->SetInt32(&resource, version, 1);

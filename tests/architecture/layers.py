@@ -35,9 +35,10 @@ ALLOWED = {
     "server/store": ("core/base", "proto", "sqlite", "openssl", "io"),
     "server/jobs": ("core/base", "convert", "server/store", "proto", "io", "spdlog"),
     "server/resource": ("core/base", "convert", "server/store", "proto", "io"),
+    "server/watch": ("core/base", "server/store", "proto", "io"),
     "server/rpc": ("core/base", "proto", "grpc", "io", "spdlog"),
     "server/services": (
-        "core/base", "convert", "server/store", "server/jobs", "server/resource", "server/rpc",
+        "core/base", "convert", "server/store", "server/jobs", "server/resource", "server/watch", "server/rpc",
         "proto", "grpc", "io", "spdlog"),
     "server": ("core", "convert", "formats", "proto", "grpc", "io", "spdlog", "cli11", "sqlite", "openssl"),
     "client/cli": ("core", "formats", "convert", "client", "proto", "grpc", "io", "cli11", "json", "openssl"),

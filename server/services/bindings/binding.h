@@ -16,6 +16,9 @@ std::unique_ptr<grpc::Service> BindCalibrationService(const CallContext& call,
                                                       const Executors& executors,
                                                       rpc::Drain& drain);
 
+std::unique_ptr<grpc::Service> BindWatchService(const CallContext& call, const Executors& executors,
+                                                rpc::Drain& drain, const WatchSettings& settings);
+
 }  // namespace truepose::services
 
 // Overrides an RPC of the generated class by the handler of the same name, run on `executor`.
