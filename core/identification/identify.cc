@@ -10,13 +10,16 @@
 #include "absl/strings/str_cat.h"
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
+#include "core/identification/contacts.h"
 #include "core/identification/weighted_solve.h"
 
 namespace truepose {
 namespace {
 
-IdentifiableSet ExternalSet(const Eigen::MatrixXd& J, const Problem& problem,
+IdentifiableSet ExternalSet(const Problem& problem, const Identification& start,
                             IdentifiabilityOptions options) {
+  const Eigen::MatrixXd J =
+      Whitened(AtContacts(problem, start.estimate), start.estimate, start.model_error).J;
   ParameterSet external;
   const ParameterSet all = Candidates(problem);
   for (int i = 0; i < problem.FirstInternal(); ++i) external.Add(all[i]);
@@ -50,6 +53,15 @@ bool IsFreeByContact(const Problem& problem, int candidate) {
                      [&](const Reading& r) { return r.placement != placement || r.contact; });
 }
 
+// Of the placements known by contact only, those whose every contact is a point.
+bool IsOfSockets(const Problem& problem, int candidate) {
+  if (!IsFreeByContact(problem, candidate)) return false;
+  const int placement = candidate / kFrameParameters;
+  return std::all_of(problem.readings.begin(), problem.readings.end(), [&](const Reading& r) {
+    return r.placement != placement || PositionRowsOf(r) == 3;
+  });
+}
+
 // Whether other readings of the same sort could not determine the candidate either.
 bool IsStructural(const Problem& problem, const IdentifiableSet& generic, int candidate) {
   return !std::binary_search(generic.active.begin(), generic.active.end(), candidate) ||
@@ -60,6 +72,7 @@ void MarkStructural(const Problem& problem, const IdentifiableSet& generic, Iden
   for (NullRelation& relation : set->redundancies) {
     relation.structural =
         !relation.undetermined && IsStructural(problem, generic, relation.dropped);
+    relation.of_sockets = IsOfSockets(problem, relation.dropped);
   }
 }
 
@@ -100,11 +113,11 @@ bool HoldsGeometry(const Problem& problem) {
   return false;
 }
 
-// Always at nominal lambda, and by the readings alone: there the model's own redundancies are
-// exact. At identified parameters two nominally parallel axes are a milliradian apart, a redundant
-// parameter looks independent, and the basis that keeps it in place of a strong one is worse
-// conditioned by a factor of 1,000 (UR10: 15,000 against 50). With a prior nothing would be
-// redundant, and all would be spread over redundant parameters.
+// Always at nominal lambda, at joints where contacts are exact, and by the readings alone: there
+// the model's own redundancies are exact. At identified parameters two nominally parallel axes are
+// a milliradian apart, a redundant parameter looks independent, and the basis that keeps it in
+// place of a strong one is worse conditioned by a factor of 1,000 (UR10: 15,000 against 50). With a
+// prior nothing would be redundant, and all would be spread over redundant parameters.
 IdentifiableSet SetAtNominal(const Problem& problem, const Identification& before,
                              const ModelError& model_error, const IdentifyOptions& options,
                              bool use_sd_bounds) {
@@ -114,7 +127,7 @@ IdentifiableSet SetAtNominal(const Problem& problem, const Identification& befor
   identifiability.use_sd_bounds =
       identifiability.use_sd_bounds && use_sd_bounds && !HoldsGeometry(problem);
   const FreeColumns columns = FreeOf(problem, options.free);
-  Eigen::MatrixXd J = Whitened(problem, nominal, model_error).J;
+  Eigen::MatrixXd J = Whitened(AtContacts(problem, nominal), nominal, model_error).J;
   if (problem.prior) J.bottomRows(problem.prior->root.rows()).setZero();
   IdentifiableSet set =
       Identifiable(J(Eigen::all, columns.candidates), columns.names, identifiability);
@@ -200,8 +213,7 @@ absl::StatusOr<Identification> FitFrames(const Problem& problem, const Estimate&
   direct.solve.estimator = Estimator::kLevenbergMarquardt;
   Identification result;
   result.estimate = start;
-  result.set = ExternalSet(Whitened(frames_alone, start, result.model_error).J, problem,
-                           options.identifiability);
+  result.set = ExternalSet(frames_alone, result, options.identifiability);
   if (!options.free.empty()) {
     const std::set<int> free(options.free.begin(), options.free.end());
     std::erase_if(result.set.active, [&](int candidate) { return !free.contains(candidate); });
