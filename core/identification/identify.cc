@@ -11,6 +11,7 @@
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
 #include "core/identification/contacts.h"
+#include "core/identification/fixture_error.h"
 #include "core/identification/weighted_solve.h"
 
 namespace truepose {
@@ -27,15 +28,21 @@ IdentifiableSet ExternalSet(const Problem& problem, const Identification& start,
   return Identifiable(J.leftCols(problem.FirstInternal()), external, options);
 }
 
-void Finish(const Problem& problem, Identification* result) {
+// identify.h. 0 when nothing is left over.
+double WeightedVariance(const WhitenedSystem& system, int active, double consistency) {
+  const double redundancy = consistency * (system.weight.sum() - active);
+  return redundancy > 0 ? system.weight.dot(system.r.cwiseAbs2()) / redundancy : 0;
+}
+
+void Finish(const Problem& problem, const IdentifyOptions& options, Identification* result) {
   const WhitenedSystem system = Whitened(problem, result->estimate, result->model_error);
   const int prior_rows = problem.prior ? static_cast<int>(problem.prior->root.rows()) : 0;
   const int active = static_cast<int>(result->set.active.size());
   const int all_rows = static_cast<int>(system.r.size());
-  const double sum = system.r.squaredNorm();
   result->rows = all_rows - prior_rows;
-  result->weighted_residual_variance = all_rows > active ? sum / (all_rows - active) : 0;
-  result->summary.final_cost = sum / 2;
+  result->weighted_residual_variance =
+      WeightedVariance(system, active, MeanConsistency(options.loss, problem));
+  result->summary.final_cost = system.r.squaredNorm() / 2;
   result->weights.clear();
   for (const Reading& reading : problem.readings) result->weights.push_back(reading.weight);
   if (result->summary.covariance_approximate) {
@@ -43,6 +50,10 @@ void Finish(const Problem& problem, Identification* result) {
   } else if (all_rows >= active) {
     result->covariance = ParameterCovariance(system.J, result->set.active);
   }
+  if (options.scale_covariance) result->covariance *= result->weighted_residual_variance;
+  result->fixture_covariance = FixtureCovariance(problem, result->estimate, result->model_error,
+                                                 system, result->set.active, result->covariance);
+  if (result->fixture_covariance.size() > 0) result->covariance += result->fixture_covariance;
 }
 
 // Whether a candidate is a base correction of a placement that is known by contact only.
@@ -194,6 +205,11 @@ absl::Status CheckFrames(const Problem& problem, const IdentifiableSet& generic,
   return faults.ToStatus(absl::StatusCode::kFailedPrecondition);
 }
 
+Eigen::MatrixXd ScatterCovariance(const Identification& identification) {
+  if (identification.fixture_covariance.size() == 0) return identification.covariance;
+  return identification.covariance - identification.fixture_covariance;
+}
+
 Eigen::MatrixXd ParameterCovariance(const Eigen::MatrixXd& J, const std::vector<int>& active) {
   Eigen::MatrixXd columns = J(Eigen::all, active);
   const Eigen::VectorXd scale = columns.colwise().norm().cwiseInverse();
@@ -220,7 +236,7 @@ absl::StatusOr<Identification> FitFrames(const Problem& problem, const Estimate&
   }
   TRUEPOSE_RETURN_IF_ERROR(
       SolveWithWeights(result.set.active, direct, hooks, &frames_alone, &result));
-  Finish(frames_alone, &result);
+  Finish(frames_alone, direct, &result);
   return result;
 }
 
@@ -236,8 +252,7 @@ absl::StatusOr<Identification> Identify(const Problem& problem, const Identifiab
   if (options.free.empty()) TRUEPOSE_RETURN_IF_ERROR(CheckFrames(problem, generic, result.set));
   TRUEPOSE_RETURN_IF_ERROR(SolveKept(before, options, hooks, &weighed, &result));
   MarkStructural(problem, generic, &result.set);
-  Finish(weighed, &result);
-  if (options.scale_covariance) result.covariance *= result.weighted_residual_variance;
+  Finish(weighed, options, &result);
   return result;
 }
 
