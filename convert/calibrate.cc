@@ -6,111 +6,14 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "convert/digest.h"
-#include "convert/frames.h"
-#include "convert/options.h"
-#include "convert/readings.h"
+#include "convert/prepared_calibration.h"
 #include "convert/repeatability.h"
 #include "convert/report.h"
-#include "convert/robot.h"
 #include "convert/run.h"
-#include "core/assessment/split.h"
-#include "core/base/fault.h"
 #include "core/base/status_macros.h"
 
 namespace truepose::convert {
 namespace {
-
-using Sessions = std::vector<const v1::SessionInput*>;
-
-Sessions SessionsOf(const v1::CalibrationInput& input) {
-  Sessions sessions;
-  for (const v1::SessionInput& session : input.sessions()) sessions.push_back(&session);
-  return sessions;
-}
-
-Hooks HooksFrom(const RunHooks& hooks) {
-  Hooks core;
-  core.is_cancelled = hooks.is_cancelled;
-  if (!hooks.on_progress) return core;
-  core.on_progress = [on_progress = hooks.on_progress](const Progress& progress) {
-    v1::JobProgress message;
-    message.set_stage(progress.stage);
-    message.set_fraction(progress.fraction);
-    message.set_iteration(progress.iteration);
-    message.set_cost(progress.cost);
-    on_progress(message);
-  };
-  return core;
-}
-
-// The tool that the target is near to: the one named, else the robot file's first as a mere start
-// value.
-absl::StatusOr<std::optional<Pose>> NominalTool(const v1::Nominal& nominal,
-                                                const std::string& name) {
-  if (name.empty()) {
-    if (nominal.tools_size() == 0) return std::nullopt;
-    return PoseFrom(nominal.tools(0).pose());
-  }
-  TRUEPOSE_ASSIGN_OR_RETURN(const Pose X_FT, ToolByName(nominal, name, "options.nominal_tool"));
-  return X_FT;
-}
-
-// Base frames of an earlier calibration, by the names of their placements.
-std::vector<std::optional<Pose>> KnownBases(const v1::PriorCalibration& prior,
-                                            const std::vector<std::string>& placements) {
-  std::vector<std::optional<Pose>> known(placements.size());
-  for (const v1::FrameEstimate& frame : prior.frames()) {
-    for (size_t i = 0; i < placements.size(); ++i) {
-      if (frame.group() == v1::BASE && frame.name() == placements[i])
-        known[i] = PoseFrom(frame.pose());
-    }
-  }
-  return known;
-}
-
-// The earlier calibration's target, for calibrate = base without a tool that is named.
-std::optional<Pose> EarlierTool(const v1::CalibrationOptions& options) {
-  if (options.calibrate() != "base" || !options.nominal_tool().empty()) return std::nullopt;
-  for (const v1::FrameEstimate& frame : options.prior_calibration().frames())
-    if (frame.group() == v1::TOOL) return PoseFrom(frame.pose());
-  return std::nullopt;
-}
-
-// Roles of the usable readings, from the split of all rows.
-absl::StatusOr<std::vector<bool>> Roles(const Sessions& sessions, const ReadingsProblem& readings,
-                                        const v1::CalibrationOptions& options) {
-  TRUEPOSE_ASSIGN_OR_RETURN(const Split split, ParseSplit(options.split()));
-  std::vector<std::string> groups, values;
-  int rows = 0;
-  for (const v1::SessionInput* session : sessions) rows += session->readings_size();
-  if (!options.group_column().empty()) {
-    TRUEPOSE_ASSIGN_OR_RETURN(
-        groups, ColumnValues(sessions, options.group_column(), "options.group_column"));
-  }
-  if (split.rule == SplitRule::kColumn) {
-    TRUEPOSE_ASSIGN_OR_RETURN(values, ColumnValues(sessions, split.column, "options.split"));
-  }
-  TRUEPOSE_ASSIGN_OR_RETURN(const std::vector<bool> all, ApplySplit(split, rows, groups, values));
-  std::vector<bool> usable;
-  for (int position : readings.position) usable.push_back(all[position]);
-  return usable;
-}
-
-absl::Status CheckLimits(const v1::CalibrationInput& input, std::vector<std::string>* warnings) {
-  FaultList faults;
-  for (int i = 0; i < input.sessions_size(); ++i) {
-    const auto& readings = input.sessions(i).readings();
-    for (const std::string& warning :
-         LimitWarnings(input.nominal(), {readings.begin(), readings.end()})) {
-      const std::string prefix =
-          input.sessions_size() > 1 ? absl::StrCat("session ", i + 1, ": ") : "";
-      warnings->push_back(prefix + warning);
-      faults.Add(absl::StrCat("sessions[", i, "].readings"), warning,
-                 "joints within their limits (strict_limits)");
-    }
-  }
-  return input.options().strict_limits() ? faults.ToStatus() : absl::OkStatus();
-}
 
 void WarnOfFrames(v1::CalibrationReport* report) {
   for (const v1::FrameEstimate& frame : report->frames()) {
@@ -174,39 +77,16 @@ void FillReport(const v1::CalibrationInput& input, const ReadingsProblem& readin
   WarnOfTemperatures(input, readings, report);
 }
 
-// The options' own faults and the robot's, at once.
-absl::Status CheckInput(const v1::CalibrationInput& input) {
-  FaultList faults;
-  faults.AddAll(ValidateOptions(input.options()));
-  faults.AddAll(ValidateNominal(input.nominal()), "nominal.");
-  return faults.ToStatus();
-}
-
 absl::StatusOr<v1::Calibration> RunOnce(const v1::CalibrationInput& input, const RunHooks& hooks) {
-  TRUEPOSE_RETURN_IF_ERROR(CheckInput(input));
-  TRUEPOSE_ASSIGN_OR_RETURN(const Robot robot, RobotFrom(input.nominal()));
-  const Sessions sessions = SessionsOf(input);
-  TRUEPOSE_ASSIGN_OR_RETURN(ReadingsProblem readings,
-                            ReadingsFrom(input.nominal(), robot, sessions, input.options()));
-  std::vector<std::string> warnings;
-  TRUEPOSE_RETURN_IF_ERROR(CheckLimits(input, &warnings));
-  readings.problem.robot = &robot;
-  TRUEPOSE_ASSIGN_OR_RETURN(readings.problem.calibrates,
-                            Roles(sessions, readings, input.options()));
-  TRUEPOSE_ASSIGN_OR_RETURN(readings.problem.X_FT_nominal,
-                            NominalTool(input.nominal(), input.options().nominal_tool()));
-  if (const auto earlier = EarlierTool(input.options())) readings.problem.X_FT_nominal = earlier;
-  TRUEPOSE_ASSIGN_OR_RETURN(const CalibrateOptions options, CalibrateOptionsFrom(input.options()));
-  readings.problem.X_MB_known =
-      KnownBases(input.options().prior_calibration(), readings.problem.placements);
-  const Hooks core_hooks = HooksFrom(hooks);
+  TRUEPOSE_ASSIGN_OR_RETURN(const PreparedCalibration prepared, PrepareCalibration(input));
+  const ReadingsProblem& readings = prepared.readings;
   TRUEPOSE_ASSIGN_OR_RETURN(const CalibrationResult result,
-                            Calibrate(readings.problem, options, core_hooks));
+                            Calibrate(readings.problem, prepared.options, CoreHooks(hooks)));
   v1::Calibration calibration = MessageOf(
       input, result, readings,
       input.options().nominal_tool().empty() ? std::nullopt : readings.problem.X_FT_nominal);
-  FillReport(input, readings, warnings, calibration.mutable_report());
-  FillRepeatability(sessions, readings, result, calibration.mutable_report());
+  FillReport(input, readings, prepared.warnings, calibration.mutable_report());
+  FillRepeatability(prepared.sessions, readings, result, calibration.mutable_report());
   return calibration;
 }
 

@@ -139,13 +139,8 @@ v1::Summary SummaryOf(const Identification& identification) {
 }
 
 void AddRedundancies(const CalibrationResult& result, v1::CalibrationReport* report) {
-  for (const NullRelation& relation : result.identification.set.redundancies) {
-    v1::Redundancy* redundancy = report->add_redundancies();
-    redundancy->set_dropped(result.candidates[relation.dropped].name);
-    redundancy->set_relation(RelationText(relation, result.candidates));
-    redundancy->set_reason(ReasonText(relation, result.candidates));
-    redundancy->set_structural(relation.structural);
-  }
+  for (const NullRelation& relation : result.identification.set.redundancies)
+    *report->add_redundancies() = RedundancyOf(relation, result.candidates);
 }
 
 v1::FrameEstimate FrameOf(const std::string& label, v1::ParameterGroup group, const Pose& X,

@@ -5,14 +5,6 @@
 namespace truepose::convert {
 namespace {
 
-void FillCounts(const CalibrationResult& result, v1::ParameterCounts* counts) {
-  counts->set_complete(result.counts.complete_by_formula);
-  counts->set_measured(result.counts.measured_by_formula);
-  counts->set_internal(result.counts.internal_by_formula);
-  counts->set_generic_rank(result.generic_rank);
-  counts->set_rank(static_cast<int>(result.identification.set.active.size()));
-}
-
 v1::SelectionStep StepOf(const std::string& added, int parameters, double weighted_rms,
                          double criterion, bool taken) {
   v1::SelectionStep step;
@@ -126,9 +118,29 @@ std::string NameOf(Unit unit) {
   return "1";
 }
 
+v1::ParameterCounts CountsOf(const ParameterCounts& counts, int generic_rank, int rank) {
+  v1::ParameterCounts message;
+  message.set_complete(counts.complete_by_formula);
+  message.set_measured(counts.measured_by_formula);
+  message.set_internal(counts.internal_by_formula);
+  message.set_generic_rank(generic_rank);
+  message.set_rank(rank);
+  return message;
+}
+
+v1::Redundancy RedundancyOf(const NullRelation& relation, const ParameterSet& candidates) {
+  v1::Redundancy message;
+  message.set_dropped(candidates[relation.dropped].name);
+  message.set_relation(RelationText(relation, candidates));
+  message.set_reason(ReasonText(relation, candidates));
+  message.set_structural(relation.structural);
+  return message;
+}
+
 void FillFindings(const CalibrationResult& result, const ReadingsProblem& readings,
                   v1::CalibrationReport* report) {
-  FillCounts(result, report->mutable_counts());
+  *report->mutable_counts() = CountsOf(result.counts, result.generic_rank,
+                                       static_cast<int>(result.identification.set.active.size()));
   FillSelection(result, report);
   FillSuspects(result, readings, report);
   FillCorrelations(result, report);

@@ -37,6 +37,14 @@ struct RunHooks {
 absl::StatusOr<v1::Calibration> RunCalibration(const v1::CalibrationInput& input,
                                                const RunHooks& hooks = {});
 
+// What RunCalibration would identify, without solving for it: counts by formula and rank, the names
+// of base, tool and internal parameters that the calibration rows determine, the others with a
+// sentence each, and the number of usable readings, calibration and control together. A run may
+// drop more and add effects that it chooses (core/calibrate/preview.h). With joints = both it is
+// that of the measured ones. @returns the errors of RunCalibration that come before it solves.
+absl::StatusOr<v1::JobPreview> RunPreview(const v1::CalibrationInput& input,
+                                          const RunHooks& hooks = {});
+
 // Applies a calibration to another session: base and tool are fitted on that session's own rows,
 // internal parameters are nominal ("before") and identified ("after").
 absl::StatusOr<v1::Evaluation> RunEvaluation(const v1::Nominal& nominal,

@@ -240,6 +240,17 @@ absl::StatusOr<Identification> FitFrames(const Problem& problem, const Estimate&
   return result;
 }
 
+absl::StatusOr<IdentifiableSet> IdentifiableAtStart(const Problem& problem,
+                                                    const IdentifiableSet& generic,
+                                                    const Identification& before,
+                                                    const IdentifyOptions& options) {
+  // The weights of "before" are those of an uncalibrated robot: no bounds on deviations yet.
+  IdentifiableSet set = SetAtNominal(problem, before, before.model_error, options, false);
+  if (options.free.empty()) TRUEPOSE_RETURN_IF_ERROR(CheckFrames(problem, generic, set));
+  MarkStructural(problem, generic, &set);
+  return set;
+}
+
 absl::StatusOr<Identification> Identify(const Problem& problem, const IdentifiableSet& generic,
                                         const Identification& before,
                                         const IdentifyOptions& options, const Hooks& hooks) {
@@ -247,9 +258,7 @@ absl::StatusOr<Identification> Identify(const Problem& problem, const Identifiab
   Identification result;
   result.estimate = before.estimate;
   result.model_error = before.model_error;
-  // The weights of "before" are those of an uncalibrated robot: no bounds on deviations yet.
-  result.set = SetAtNominal(problem, before, before.model_error, options, false);
-  if (options.free.empty()) TRUEPOSE_RETURN_IF_ERROR(CheckFrames(problem, generic, result.set));
+  TRUEPOSE_ASSIGN_OR_RETURN(result.set, IdentifiableAtStart(problem, generic, before, options));
   TRUEPOSE_RETURN_IF_ERROR(SolveKept(before, options, hooks, &weighed, &result));
   MarkStructural(problem, generic, &result.set);
   Finish(weighed, options, &result);

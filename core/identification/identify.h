@@ -65,6 +65,14 @@ absl::StatusOr<Identification> FitFrames(const Problem& problem, const Estimate&
 absl::Status CheckFrames(const Problem& problem, const IdentifiableSet& generic,
                          const IdentifiableSet& actual);
 
+// The set with which Identify begins, without solving: what the readings determine at nominal
+// lambda, redundancies marked structural. None is called too weak yet: that needs the residuals.
+// @returns kFailedPrecondition as Identify does.
+absl::StatusOr<IdentifiableSet> IdentifiableAtStart(const Problem& problem,
+                                                    const IdentifiableSet& generic,
+                                                    const Identification& before,
+                                                    const IdentifyOptions& options);
+
 // Identifies everything that the readings determine, from `before` = FitFrames at nominal lambda,
 // or at that of an earlier calibration. The problem's prior takes part; which parameters are
 // identifiable is judged without it, at nominal lambda, and with it none is called too weak.
