@@ -11,6 +11,9 @@
 #include "convert/report.h"
 #include "convert/robot.h"
 #include "convert/run.h"
+#include "convert/torques.h"
+#include "convert/unit_hints.h"
+#include "convert/usable_readings.h"
 #include "core/assessment/split.h"
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
@@ -156,13 +159,37 @@ absl::Status CheckInput(const v1::CalibrationInput& input) {
   return faults.ToStatus();
 }
 
+// Of every session, named where there are several.
+std::vector<std::string> HintsAt(const v1::CalibrationInput& input, const Robot& robot) {
+  std::vector<std::string> hints;
+  for (int i = 0; i < input.sessions_size(); ++i) {
+    const std::string prefix =
+        input.sessions_size() > 1 ? absl::StrCat("session ", i + 1, ": ") : "";
+    for (const std::string& hint : UnitHints(input.nominal(), robot, input.sessions(i)))
+      hints.push_back(prefix + hint);
+  }
+  return hints;
+}
+
+// The faults of a run that failed, and what may be behind them.
+absl::Status WithHints(const absl::Status& status, const std::vector<std::string>& hints) {
+  if (hints.empty() || FaultsOf(status).empty()) return status;
+  FaultList faults;
+  faults.AddAll(status);
+  for (const std::string& hint : hints)
+    faults.Add("sessions", hint, "the units that the columns say");
+  return faults.ToStatus(status.code());
+}
+
 absl::StatusOr<v1::Calibration> RunOnce(const v1::CalibrationInput& input, const RunHooks& hooks) {
   TRUEPOSE_RETURN_IF_ERROR(CheckInput(input));
   TRUEPOSE_ASSIGN_OR_RETURN(const Robot robot, RobotFrom(input.nominal()));
   const Sessions sessions = SessionsOf(input);
   TRUEPOSE_ASSIGN_OR_RETURN(ReadingsProblem readings,
                             ReadingsFrom(input.nominal(), robot, sessions, input.options()));
-  std::vector<std::string> warnings;
+  TRUEPOSE_RETURN_IF_ERROR(CheckUsable(sessions, input.options(), readings.rows.size()));
+  std::vector<std::string> warnings = HintsAt(input, robot);
+  const std::vector<std::string> hints = warnings;
   TRUEPOSE_RETURN_IF_ERROR(CheckLimits(input, &warnings));
   readings.problem.robot = &robot;
   TRUEPOSE_ASSIGN_OR_RETURN(readings.problem.calibrates,
@@ -174,8 +201,12 @@ absl::StatusOr<v1::Calibration> RunOnce(const v1::CalibrationInput& input, const
   readings.problem.X_MB_known =
       KnownBases(input.options().prior_calibration(), readings.problem.placements);
   const Hooks core_hooks = HooksFrom(hooks);
-  TRUEPOSE_ASSIGN_OR_RETURN(const CalibrationResult result,
-                            Calibrate(readings.problem, options, core_hooks));
+  const absl::StatusOr<CalibrationResult> calibrated =
+      Calibrate(readings.problem, options, core_hooks);
+  if (!calibrated.ok()) return WithHints(calibrated.status(), hints);
+  const CalibrationResult& result = *calibrated;
+  if (const std::string warning = TorqueWarning(result.model); !warning.empty())
+    warnings.push_back(warning);
   v1::Calibration calibration = MessageOf(
       input, result, readings,
       input.options().nominal_tool().empty() ? std::nullopt : readings.problem.X_FT_nominal);
