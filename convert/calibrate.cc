@@ -10,6 +10,8 @@
 #include "convert/repeatability.h"
 #include "convert/report.h"
 #include "convert/run.h"
+#include "convert/torques.h"
+#include "core/base/fault.h"
 #include "core/base/status_macros.h"
 
 namespace truepose::convert {
@@ -77,15 +79,30 @@ void FillReport(const v1::CalibrationInput& input, const ReadingsProblem& readin
   WarnOfTemperatures(input, readings, report);
 }
 
+// The faults of a run that failed, and what may be behind them.
+absl::Status WithHints(const absl::Status& status, const std::vector<std::string>& hints) {
+  if (hints.empty() || FaultsOf(status).empty()) return status;
+  FaultList faults;
+  faults.AddAll(status);
+  for (const std::string& hint : hints)
+    faults.Add("sessions", hint, "the units that the columns say");
+  return faults.ToStatus(status.code());
+}
+
 absl::StatusOr<v1::Calibration> RunOnce(const v1::CalibrationInput& input, const RunHooks& hooks) {
   TRUEPOSE_ASSIGN_OR_RETURN(const PreparedCalibration prepared, PrepareCalibration(input));
   const ReadingsProblem& readings = prepared.readings;
-  TRUEPOSE_ASSIGN_OR_RETURN(const CalibrationResult result,
-                            Calibrate(readings.problem, prepared.options, CoreHooks(hooks)));
+  const absl::StatusOr<CalibrationResult> calibrated =
+      Calibrate(readings.problem, prepared.options, CoreHooks(hooks));
+  if (!calibrated.ok()) return WithHints(calibrated.status(), prepared.hints);
+  const CalibrationResult& result = *calibrated;
+  std::vector<std::string> warnings = prepared.warnings;
+  if (const std::string warning = TorqueWarning(result.model); !warning.empty())
+    warnings.push_back(warning);
   v1::Calibration calibration = MessageOf(
       input, result, readings,
       input.options().nominal_tool().empty() ? std::nullopt : readings.problem.X_FT_nominal);
-  FillReport(input, readings, prepared.warnings, calibration.mutable_report());
+  FillReport(input, readings, warnings, calibration.mutable_report());
   FillRepeatability(prepared.sessions, readings, result, calibration.mutable_report());
   return calibration;
 }

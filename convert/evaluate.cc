@@ -7,6 +7,8 @@
 #include "convert/report.h"
 #include "convert/robot.h"
 #include "convert/run.h"
+#include "convert/torques.h"
+#include "convert/usable_readings.h"
 #include "core/base/status_macros.h"
 
 namespace truepose::convert {
@@ -57,9 +59,11 @@ absl::StatusOr<v1::Evaluation> RunEvaluation(const v1::Nominal& nominal,
   TRUEPOSE_ASSIGN_OR_RETURN(const Robot robot, RobotFrom(nominal));
   TRUEPOSE_ASSIGN_OR_RETURN(const CalibratedModel calibrated,
                             CalibratedModelFrom(robot, calibration));
-  TRUEPOSE_ASSIGN_OR_RETURN(
-      ReadingsProblem readings,
-      ReadingsFrom(nominal, robot, {&session}, OptionsOf(calibration, session, observe)));
+  const v1::CalibrationOptions options = OptionsOf(calibration, session, observe);
+  TRUEPOSE_ASSIGN_OR_RETURN(ReadingsProblem readings,
+                            ReadingsFrom(nominal, robot, {&session}, options));
+  TRUEPOSE_RETURN_IF_ERROR(CheckUsable({&session}, options, readings.rows.size()));
+  TRUEPOSE_RETURN_IF_ERROR(CheckTorquesOfReadings(calibrated, readings.problem.readings));
   readings.problem.robot = &robot;
   if (nominal.tools_size() > 0) readings.problem.X_FT_nominal = PoseFrom(nominal.tools(0).pose());
   TRUEPOSE_ASSIGN_OR_RETURN(

@@ -7,6 +7,8 @@
 #include "convert/frames.h"
 #include "convert/options.h"
 #include "convert/robot.h"
+#include "convert/unit_hints.h"
+#include "convert/usable_readings.h"
 #include "core/assessment/split.h"
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
@@ -91,6 +93,18 @@ absl::Status CheckLimits(const v1::CalibrationInput& input, std::vector<std::str
   return input.options().strict_limits() ? faults.ToStatus() : absl::OkStatus();
 }
 
+// Of every session, named where there are several.
+std::vector<std::string> HintsAt(const v1::CalibrationInput& input, const Robot& robot) {
+  std::vector<std::string> hints;
+  for (int i = 0; i < input.sessions_size(); ++i) {
+    const std::string prefix =
+        input.sessions_size() > 1 ? absl::StrCat("session ", i + 1, ": ") : "";
+    for (const std::string& hint : UnitHints(input.nominal(), robot, input.sessions(i)))
+      hints.push_back(prefix + hint);
+  }
+  return hints;
+}
+
 // The options' own faults and the robot's, at once.
 absl::Status CheckInput(const v1::CalibrationInput& input) {
   FaultList faults;
@@ -124,6 +138,10 @@ absl::StatusOr<PreparedCalibration> PrepareCalibration(const v1::CalibrationInpu
   prepared.sessions = SessionsOf(input);
   TRUEPOSE_ASSIGN_OR_RETURN(prepared.readings, ReadingsFrom(input.nominal(), *prepared.robot,
                                                             prepared.sessions, input.options()));
+  TRUEPOSE_RETURN_IF_ERROR(
+      CheckUsable(prepared.sessions, input.options(), prepared.readings.rows.size()));
+  prepared.hints = HintsAt(input, *prepared.robot);
+  prepared.warnings = prepared.hints;
   TRUEPOSE_RETURN_IF_ERROR(CheckLimits(input, &prepared.warnings));
   CalibrationProblem& problem = prepared.readings.problem;
   problem.robot = prepared.robot.get();

@@ -18,7 +18,8 @@ struct PreparedCalibration {
   std::vector<const v1::SessionInput*> sessions;  // of the input, which outlives this
   ReadingsProblem readings;
   CalibrateOptions options;
-  std::vector<std::string> warnings;  // of joints beyond their limits
+  std::vector<std::string> warnings;  // the hints, and of joints beyond their limits
+  std::vector<std::string> hints;     // at units that may be others than the columns say
 };
 
 // @returns kInvalidArgument with the faults of options, nominal, readings and, with strict_limits,

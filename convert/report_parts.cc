@@ -1,5 +1,7 @@
 #include "convert/report_parts.h"
 
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 #include "convert/report.h"
 
 namespace truepose::convert {
@@ -14,6 +16,20 @@ v1::SelectionStep StepOf(const std::string& added, int parameters, double weight
   step.set_criterion(criterion);
   step.set_taken(taken);
   return step;
+}
+
+// One sentence for all groups that were not tried, each with its reason.
+void WarnOfUntried(const CalibrationResult& result, const ReadingsProblem& readings,
+                   v1::CalibrationReport* report) {
+  std::vector<std::string> texts;
+  for (const UntriedEffect& untried : result.effects.untried) {
+    std::string text = absl::StrCat(Name(untried.group), " (", untried.reason);
+    if (untried.reading_id >= 0)
+      absl::StrAppend(&text, "; first in row ", readings.rows[untried.reading_id].row);
+    texts.push_back(text + ")");
+  }
+  if (!texts.empty())
+    report->add_warnings(absl::StrCat("effects not tried: ", absl::StrJoin(texts, ", ")));
 }
 
 void FillSelection(const CalibrationResult& result, v1::CalibrationReport* report) {
@@ -40,10 +56,6 @@ void FillSuspects(const CalibrationResult& result, const ReadingsProblem& readin
 
 void FillCorrelations(const CalibrationResult& result, v1::CalibrationReport* report) {
   for (const Correlation& correlation : result.correlations) {
-    // Frames that trade with each other concern nobody: the robot's own parameters do.
-    if (result.candidates[correlation.a].group != ParameterGroup::kInternal &&
-        result.candidates[correlation.b].group != ParameterGroup::kInternal)
-      continue;
     v1::Correlation* message = report->add_correlations();
     message->set_a(result.candidates[correlation.a].name);
     message->set_b(result.candidates[correlation.b].name);
@@ -142,6 +154,7 @@ void FillFindings(const CalibrationResult& result, const ReadingsProblem& readin
   *report->mutable_counts() = CountsOf(result.counts, result.generic_rank,
                                        static_cast<int>(result.identification.set.active.size()));
   FillSelection(result, report);
+  WarnOfUntried(result, readings, report);
   FillSuspects(result, readings, report);
   FillCorrelations(result, report);
   FillPredicted(result, report);

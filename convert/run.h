@@ -56,7 +56,7 @@ absl::StatusOr<v1::Evaluation> RunEvaluation(const v1::Nominal& nominal,
 // robot the joints are those that were read, and the answer is the pose X_BT of the tip where it
 // really is, without joints.
 // @returns kFailedPrecondition for a calibration whose verdict is do_not_apply; kInvalidArgument
-// with faults.
+// with faults, also for compliance from measured torques without masses (torques.h).
 absl::StatusOr<v1::CompensateResponse> RunCompensation(const v1::Nominal& nominal,
                                                        const v1::Calibration& calibration,
                                                        const v1::CompensateRequest& request);

@@ -31,6 +31,11 @@ void JudgeControlSize(size_t rows, Verdict* verdict) {
                                " control rows: they show little of how far the result carries"));
 }
 
+// Two fits of the same frames to the same readings end where their tolerances let them, and errors
+// differ by 1e-7 of themselves: a ratio that is nearer to 1 than this is 1. No instrument shows a
+// millionth of an error.
+constexpr double kRoundOff = 1e-6;
+
 void JudgeControl(const std::vector<PoseError>& before, const std::vector<PoseError>& after,
                   Verdict* verdict) {
   const double ratio = PoseStatisticsOf(after).position_m.rms /
@@ -39,7 +44,7 @@ void JudgeControl(const std::vector<PoseError>& before, const std::vector<PoseEr
   verdict->reasons.push_back(absl::StrFormat(
       "control RMS position after / before is %.3f, 95 %% interval %.3f to %.3f over %d rows",
       ratio, low, high, before.size()));
-  if (!(high < 1)) {
+  if (!(high < 1 - kRoundOff)) {
     verdict->decision = Decision::kDoNotApply;
     verdict->reasons.push_back("an improvement on the control set is not proved");
   }
@@ -74,6 +79,33 @@ void JudgeUnexplained(const ModelError& error, Verdict* verdict) {
       "file",
       1e3 * error.position_sd_m, error.rotation_sd_rad * 180 / std::numbers::pi,
       1e3 * kMostUnexplained_m, kMostUnexplained_rad * 180 / std::numbers::pi));
+}
+
+// Whether any active candidate is one of the robot's own.
+bool FoundAnyInternal(const Identification& identification) {
+  const Estimate& estimate = identification.estimate;
+  const auto first = static_cast<int>(
+      kFrameParameters * (estimate.X_MB.size() + estimate.X_FT.size()) + estimate.offsets.size());
+  const std::vector<int>& active = identification.set.active;
+  return !active.empty() && active.back() >= first;
+}
+
+void JudgeScope(const Identification& identification, Verdict* verdict) {
+  if (FoundAnyInternal(identification)) return;
+  verdict->decision = Decision::kDoNotApply;
+  verdict->reasons.push_back(
+      "nothing of the robot was identified: base and tool are where they are, and the robot "
+      "moves as before");
+}
+
+// Advice that fits what was tried.
+void JudgeTermination(const SolveSummary& summary, Verdict* verdict) {
+  if (summary.termination == Termination::kConverged) return;
+  verdict->decision = Decision::kDoNotApply;
+  verdict->reasons.push_back(
+      absl::StrCat("identification ended with ", Name(summary.termination),
+                   ": not converged, so no figure of it counts; try --estimator "
+                   "levenberg_marquardt, more different poses or --prior tolerance"));
 }
 
 }  // namespace
@@ -120,11 +152,8 @@ Verdict Judge(const Identification& identification, const ParameterSet& paramete
   if (!control_before.empty()) JudgeControl(control_before, control_after, &verdict);
   JudgeSizes(identification.estimate.lambda, parameters, &verdict);
   JudgeUnexplained(identification.model_error, &verdict);
-  if (identification.summary.termination != Termination::kConverged) {
-    verdict.decision = Decision::kDoNotApply;
-    verdict.reasons.push_back(
-        absl::StrCat("identification ended with ", Name(identification.summary.termination)));
-  }
+  JudgeScope(identification, &verdict);
+  JudgeTermination(identification.summary, &verdict);
   return verdict;
 }
 

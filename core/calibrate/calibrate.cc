@@ -87,8 +87,8 @@ absl::StatusOr<CalibrationResult> Calibrate(const CalibrationProblem& problem,
                 &result.identification.estimate);
   if (options.require_complete)
     TRUEPOSE_RETURN_IF_ERROR(CheckComplete(result.identification.set, result.candidates));
+  TRUEPOSE_RETURN_IF_ERROR(CheckNamed(run.scope, result.identification.set, result.candidates));
   if (HoldsTheRest(options)) {
-    TRUEPOSE_RETURN_IF_ERROR(CheckNamed(run.scope, result.identification.set, result.candidates));
     result.change = TestChange(run.part.problem, run.start_lambda,
                                InternalCovariance(*options.stored, result.model.parameters),
                                &result.identification);

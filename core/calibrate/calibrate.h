@@ -79,7 +79,8 @@ struct CalibrationResult {
   std::vector<EffectGroup> effect_groups;  // of the model
   std::vector<Suspect> suspects;           // Suspect::reading indexes the problem's readings
   std::vector<Correlation> correlations;
-  PredictedAccuracy predicted;       // on control rows in frames that the calibration rows have
+  // On control rows in frames that the calibration rows have; none when not converged.
+  PredictedAccuracy predicted;
   PlaceErrors control_places;        // of contact control rows
   std::optional<ChangeTest> change;  // of a partial recalibration from a stored calibration
   Verdict verdict;

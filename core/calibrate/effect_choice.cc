@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
 
+#include "absl/strings/str_cat.h"
 #include "core/base/random.h"
 #include "core/calibrate/sets.h"
 #include "core/identification/prior.h"
@@ -39,7 +41,14 @@ class Linearised {
     folds_ = options.folds;
   }
 
-  int units() const { return units_; }
+  // Measured values; those of a prior are not among them. Of a reading six at most: a flange has no
+  // more coordinates, however many points of it are seen.
+  int values() const {
+    std::vector<int> of_unit(units_, 0);
+    for (const int unit : unit_) of_unit[unit] = std::min(of_unit[unit] + 1, 6);
+    return std::accumulate(of_unit.begin(), of_unit.end(), 0);
+  }
+  int readings() const { return units_; }
 
   // Of `columns`, those that are independent.
   std::vector<int> Independent(const std::vector<int>& columns) const {
@@ -144,6 +153,33 @@ struct Candidate {
   std::vector<int> columns;
 };
 
+bool IsEnough(const Linearised& system, const EffectChoiceOptions& options, size_t parameters) {
+  return system.values() >= options.values_per_parameter * static_cast<double>(parameters);
+}
+
+// A group that there are too few readings for now never comes in: what is taken only adds
+// parameters. So it leaves the list, with its reason.
+void DropWithoutReadings(const Linearised& system, const EffectChoiceOptions& options,
+                         const std::vector<int>& columns, std::vector<Candidate>* left,
+                         EffectChoice* choice) {
+  std::erase_if(*left, [&](const Candidate& candidate) {
+    const size_t parameters = system.Independent(Joined(columns, candidate.columns)).size();
+    if (IsEnough(system, options, parameters)) return false;
+    // What was looked at with fewer groups beside it stands in the path already.
+    const bool looked_at =
+        std::any_of(choice->path.begin(), choice->path.end(),
+                    [&](const EffectStep& step) { return step.added == Name(candidate.group); });
+    if (!looked_at)
+      choice->untried.push_back(
+          {candidate.group,
+           absl::StrCat(system.readings(), " readings give ", system.values(), " values, ",
+                        std::ceil(options.values_per_parameter * static_cast<double>(parameters)),
+                        " needed for ", parameters, " parameters"),
+           -1});
+    return true;
+  });
+}
+
 // Looks at every group left and takes the best one if it is entitled. @returns whether one was.
 bool TakeOne(const Linearised& system, const EffectChoiceOptions& options,
              std::vector<int>* columns, std::vector<Candidate>* left, EffectChoice* choice) {
@@ -153,8 +189,6 @@ bool TakeOne(const Linearised& system, const EffectChoiceOptions& options,
   std::vector<int> best_columns;
   for (size_t i = 0; i < left->size(); ++i) {
     const std::vector<int> wider = system.Independent(Joined(*columns, (*left)[i].columns));
-    if (system.units() < options.readings_per_parameter * static_cast<double>(wider.size()))
-      continue;
     const std::vector<double> then = system.HeldOut(wider);
     choice->path.push_back({Name((*left)[i].group), static_cast<int>(wider.size()),
                             system.FittedRms(wider), system.Rms(then), false});
@@ -178,17 +212,31 @@ bool TakeOne(const Linearised& system, const EffectChoiceOptions& options,
 
 }  // namespace
 
-std::vector<EffectGroup> AvailableEffects(const Robot& robot, const Problem& problem) {
-  std::vector<EffectGroup> groups = {EffectGroup::kGain, EffectGroup::kHarmonic1,
-                                     EffectGroup::kHarmonic2};
-  bool torque = true, temperature = false;
+std::vector<UntriedEffect> EffectsWithoutCause(const Robot& robot, const Problem& problem) {
+  std::vector<UntriedEffect> untried;
+  int without_torque = 0, first_without = -1;
+  bool temperature = false;
   for (const Reading& reading : problem.readings) {
-    torque = torque && reading.conditions.joint_torque.size() > 0;
     temperature = temperature ||
                   reading.conditions.temperature_K != problem.readings[0].conditions.temperature_K;
+    if (reading.conditions.joint_torque.size() > 0) continue;
+    if (++without_torque == 1) first_without = reading.id;
   }
-  if (torque || !robot.masses().empty()) groups.push_back(EffectGroup::kCompliance);
-  if (temperature) groups.push_back(EffectGroup::kTemperature);
+  if (without_torque > 0 && robot.masses().empty())
+    untried.push_back(
+        {EffectGroup::kCompliance,
+         absl::StrCat("joint torques (tau1_Nm...) are missing in ", without_torque, " of ",
+                      problem.readings.size(), " readings, and the robot file has no masses"),
+         first_without});
+  if (!temperature)
+    untried.push_back({EffectGroup::kTemperature, "there is no temperature (temp_C) that varies"});
+  return untried;
+}
+
+std::vector<EffectGroup> AvailableEffects(const Robot& robot, const Problem& problem) {
+  std::vector<EffectGroup> groups = AllEffectGroups();
+  for (const UntriedEffect& untried : EffectsWithoutCause(robot, problem))
+    std::erase(groups, untried.group);
   return groups;
 }
 
@@ -210,8 +258,10 @@ EffectChoice ChooseEffects(const Robot& robot, const Problem& problem,
   EffectChoice choice;
   choice.path.push_back({"", static_cast<int>(columns.size()), system.FittedRms(columns),
                          system.Rms(system.HeldOut(columns)), true});
-  while (TakeOne(system, options, &columns, &left, &choice)) {
-  }
+  choice.untried = EffectsWithoutCause(robot, problem);
+  do {
+    DropWithoutReadings(system, options, columns, &left, &choice);
+  } while (TakeOne(system, options, &columns, &left, &choice));
   return choice;
 }
 

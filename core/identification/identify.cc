@@ -189,13 +189,30 @@ absl::Status SolveKept(const Identification& before, const IdentifyOptions& opti
 
 }  // namespace
 
+bool IsTakenUpByFrames(const Problem& problem, const IdentifiableSet& actual,
+                       const NullRelation& relation) {
+  // Two poses leave any hand-eye problem open: that is a want of readings, not of motion.
+  constexpr size_t kFewestReadings = 3;
+  if (problem.readings.size() < kFewestReadings || relation.kept.empty()) return false;
+  if (relation.dropped < problem.FirstOfTool(0) || relation.dropped >= problem.FirstOfOffsets())
+    return false;
+  const int first = relation.dropped - relation.dropped % kFrameParameters;
+  const bool moved = std::any_of(actual.active.begin(), actual.active.end(), [&](int candidate) {
+    return candidate >= first && candidate < first + kFrameParameters;
+  });
+  if (!moved) return false;
+  return std::all_of(relation.kept.begin(), relation.kept.end(),
+                     [&](const auto& term) { return term.first < problem.FirstOfOffsets(); });
+}
+
 absl::Status CheckFrames(const Problem& problem, const IdentifiableSet& generic,
                          const IdentifiableSet& actual) {
   const ParameterSet names = Candidates(problem);
   FaultList faults;
   for (const NullRelation& relation : actual.redundancies) {
     if (relation.dropped >= problem.FirstInternal() ||
-        IsStructural(problem, generic, relation.dropped))
+        IsStructural(problem, generic, relation.dropped) ||
+        IsTakenUpByFrames(problem, actual, relation))
       continue;
     faults.Add(names[relation.dropped].name,
                absl::StrCat("not determined by ", problem.readings.size(),
