@@ -34,6 +34,7 @@ v1::Calibration MessageOf(const v1::CalibrationInput& input, const CalibrationRe
     calibration.add_sessions(session.session().name());
   FillParameters(result, &calibration);
   *calibration.mutable_report() = ReportOf(result, readings, X_FT);
+  ShowEarlierFrames(input.options().prior_calibration(), calibration.mutable_report());
   *calibration.mutable_options() = input.options();
   for (v1::RowResidual& residual :
        ResidualsOf(result.complete, readings.rows, readings.problem.calibrates)) {
@@ -67,12 +68,25 @@ void WarnOfTemperatures(const v1::CalibrationInput& input, const ReadingsProblem
                                     "the session for it"));
 }
 
-void FillReport(const v1::CalibrationInput& input, const ReadingsProblem& readings,
-                const std::vector<std::string>& warnings, v1::CalibrationReport* report) {
+// Measured joints are used wherever there are any (readings.h).
+std::string ComparedText(const JointComparison& joints) {
+  const bool other = joints.other_rms_m < joints.used_rms_m;
+  return absl::StrFormat(
+      "%s joints fit better: RMS position of %d calibration rows %.3f mm with measured, %.3f mm "
+      "with commanded joints%s",
+      other ? "commanded" : "measured", joints.readings, kMmPerM * joints.used_rms_m,
+      kMmPerM * joints.other_rms_m,
+      other ? "; this result is of the measured ones, --joints commanded takes the others" : "");
+}
+
+void FillReport(const v1::CalibrationInput& input, const CalibrationResult& result,
+                const ReadingsProblem& readings, const std::vector<std::string>& warnings,
+                v1::CalibrationReport* report) {
   report->set_split(input.options().split());
   report->set_estimator(input.options().estimator().empty() ? "levenberg_marquardt"
                                                             : input.options().estimator());
   report->set_joints_used(readings.joints_used);
+  if (result.joints) report->set_joints_compared(ComparedText(*result.joints));
   for (const std::string& warning : readings.warnings) report->add_warnings(warning);
   for (const std::string& warning : warnings) report->add_warnings(warning);
   WarnOfFrames(report);
@@ -102,16 +116,14 @@ absl::StatusOr<v1::Calibration> RunOnce(const v1::CalibrationInput& input, const
   v1::Calibration calibration = MessageOf(
       input, result, readings,
       input.options().nominal_tool().empty() ? std::nullopt : readings.problem.X_FT_nominal);
-  FillReport(input, readings, warnings, calibration.mutable_report());
+  FillReport(input, result, readings, warnings, calibration.mutable_report());
   FillRepeatability(prepared.sessions, readings, result, calibration.mutable_report());
   return calibration;
 }
 
-// RMS position after calibration: of the control set, where there is one.
+// RMS position of the calibration rows: a choice by the control set would leave none to judge it.
 double JudgedRms(const v1::Calibration& calibration) {
-  const v1::Sets& sets = calibration.report().sets();
-  const v1::SetReport& set = sets.control().poses() > 0 ? sets.control() : sets.calibration();
-  return set.after().position_mm().rms();
+  return calibration.report().sets().calibration().after().position_mm().rms();
 }
 
 // Progress of one of two runs.
@@ -136,7 +148,8 @@ absl::StatusOr<v1::Calibration> RunBoth(const v1::CalibrationInput& input, const
   const bool measured_is_better = JudgedRms(measured) <= JudgedRms(commanded);
   v1::Calibration best = measured_is_better ? measured : commanded;
   best.mutable_report()->set_joints_compared(absl::StrFormat(
-      "%s joints fit better: RMS position %.3f mm with measured, %.3f mm with commanded joints",
+      "%s joints fit better: RMS position of the calibration rows %.3f mm with measured, %.3f mm "
+      "with commanded joints",
       measured_is_better ? "measured" : "commanded", JudgedRms(measured), JudgedRms(commanded)));
   return best;
 }

@@ -41,6 +41,12 @@ const Names<Estimator>& Estimators() {
   return names;
 }
 
+const Names<SimplexObjective>& Objectives() {
+  static const Names<SimplexObjective> names = {{"least_squares", SimplexObjective::kLeastSquares},
+                                                {"e_op", SimplexObjective::kMeanPositionError}};
+  return names;
+}
+
 const Names<Loss>& Losses() {
   static const Names<Loss> names = {
       {"none", Loss::kNone}, {"huber", Loss::kHuber}, {"tukey", Loss::kTukey}};
@@ -76,6 +82,17 @@ void ReadModel(const std::string& name, CalibrateOptions* options, FaultList* fa
   Names<std::string> names;
   for (const std::string& kind : ModelKinds()) names.emplace_back(kind, kind);
   options->model = Named(name, names, "options.model", faults);
+}
+
+// The other estimators have one objective, least squares, so even naming it is a mistake about what
+// the option does.
+void ReadSolver(const v1::CalibrationOptions& message, SolveOptions* solve, FaultList* faults) {
+  solve->estimator = Named(message.estimator(), Estimators(), "options.estimator", faults);
+  solve->simplex.objective = Named(message.objective(), Objectives(), "options.objective", faults);
+  if (message.objective().empty() || message.estimator() == "simplex") return;
+  faults->Add("options.objective",
+              absl::StrCat("'", message.objective(), "' with estimator ", Name(solve->estimator)),
+              "estimator simplex: the others know least squares alone");
 }
 
 void ReadSelect(const std::string& name, CalibrateOptions* options, FaultList* faults) {
@@ -165,8 +182,7 @@ absl::StatusOr<CalibrateOptions> CalibrateOptionsFrom(const v1::CalibrationOptio
   FaultList faults;
   options.require_complete = message.require_complete();
   ReadModel(message.model(), &options, &faults);
-  options.identify.solve.estimator =
-      Named(message.estimator(), Estimators(), "options.estimator", &faults);
+  ReadSolver(message, &options.identify.solve, &faults);
   options.identify.loss = Named(message.loss(), Losses(), "options.loss", &faults);
   ReadSelect(message.select(), &options, &faults);
   ReadEffects(message.effects(), &options, &faults);

@@ -69,6 +69,17 @@ absl::StatusOr<v1::CompensateResponse> RunCompensation(const v1::Nominal& nomina
 absl::StatusOr<v1::ModelDescription> RunModelDescription(const v1::Nominal& nominal,
                                                          const std::string& kind);
 
+// The same calibration in another model: predictions of base, robot and tool stay within 1e-9 m and
+// rad, and so does their covariance, which goes through the derivative of the conversion
+// (core/conversion/conversion_jacobian.h). Where the readings left directions at nominal, more
+// parameters may carry the covariance than its rank; a warning says so. Name, job and release state
+// are dropped, digest and options.model are new.
+// @returns kInvalidArgument with faults for an unknown model or a calibration of another robot;
+//   kFailedPrecondition with a fault `joints[i]` where the other model is singular.
+absl::StatusOr<v1::Calibration> RunConversion(const v1::Nominal& nominal,
+                                              const v1::Calibration& calibration,
+                                              const std::string& model);
+
 // The figures from which a session is made of a robot. Standard deviations of one draw per
 // parameter.
 struct SimulationOptions {

@@ -7,6 +7,7 @@
 #include "core/calibrate/assess.h"
 #include "core/calibrate/checks.h"
 #include "core/calibrate/gauge.h"
+#include "core/calibrate/joint_sources.h"
 #include "core/calibrate/parameter_choice.h"
 #include "core/calibrate/run.h"
 
@@ -93,8 +94,12 @@ absl::StatusOr<CalibrationResult> Calibrate(const CalibrationProblem& problem,
                                InternalCovariance(*options.stored, result.model.parameters),
                                &result.identification);
   }
+  TRUEPOSE_ASSIGN_OR_RETURN(
+      result.joints,
+      CompareJointSources(problem, run.part, options.identify.solve.estimator,
+                          result.identification, run.stages.For("assessment", 0.9, 0.95)));
   TRUEPOSE_RETURN_IF_ERROR(
-      Assess(problem, run.part, run.stages.For("assessment", 0.9, 1), &result));
+      Assess(problem, run.part, run.stages.For("assessment", 0.95, 1), &result));
   hooks.Report({"assessment", 1, result.identification.summary.iterations,
                 result.identification.summary.final_cost});
   return result;

@@ -157,6 +157,11 @@ bool IsEnough(const Linearised& system, const EffectChoiceOptions& options, size
   return system.values() >= options.values_per_parameter * static_cast<double>(parameters);
 }
 
+double LeastGain(const Linearised& system, const EffectChoiceOptions& options, size_t parameters) {
+  const double many = 2 * options.values_per_parameter * static_cast<double>(parameters);
+  return system.values() >= many ? options.least_gain : options.least_gain_of_few;
+}
+
 // A group that there are too few readings for now never comes in: what is taken only adds
 // parameters. So it leaves the list, with its reason.
 void DropWithoutReadings(const Linearised& system, const EffectChoiceOptions& options,
@@ -193,7 +198,8 @@ bool TakeOne(const Linearised& system, const EffectChoiceOptions& options,
     choice->path.push_back({Name((*left)[i].group), static_cast<int>(wider.size()),
                             system.FittedRms(wider), system.Rms(then), false});
     const auto [mean, standard_error] = DropOf(now, then);
-    const bool enough = system.Rms(then) <= (1 - options.least_gain) * system.Rms(now);
+    const double gain = LeastGain(system, options, wider.size());
+    const bool enough = system.Rms(then) <= (1 - gain) * system.Rms(now);
     if (!enough || mean <= standard_error || mean <= best_mean) continue;
     best = i, best_mean = mean, best_columns = wider;
   }
