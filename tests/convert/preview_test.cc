@@ -52,7 +52,7 @@ TEST(Preview, OfPointsAndOfAnotherModel) {
   ExpectAsTheRun(input);
 }
 
-// Catches a joint that never moves and isn't named.
+// Catches a parameter that is named on both sides or without a reason, and ones that are held.
 TEST(Preview, NamesWhatTheseReadingsDoNotTell) {
   v1::CalibrationInput input = SampleInput();
   const auto free = Identifiable(*RunPreview(input));
