@@ -29,7 +29,9 @@ class CalibrationBinding final : public v1::CalibrationService::CallbackService 
   CalibrationBinding(const CallContext& call, const Executors& executors, rpc::Drain& drain)
       : call_(call), handlers_(executors.handlers), compute_(executors.compute), drain_(drain) {}
 
-  TRUEPOSE_BIND(CreateCalibrationJob, CreateCalibrationJobRequest, CalibrationJob, handlers_)
+  // A preview computes; what is only stored must not wait behind it.
+  TRUEPOSE_BIND(CreateCalibrationJob, CreateCalibrationJobRequest, CalibrationJob,
+                (request->validate_only() ? compute_ : handlers_))
   TRUEPOSE_BIND(GetCalibrationJob, GetCalibrationJobRequest, CalibrationJob, handlers_)
   TRUEPOSE_BIND(ListCalibrationJobs, ListCalibrationJobsRequest, ListCalibrationJobsResponse,
                 handlers_)
