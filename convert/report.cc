@@ -146,7 +146,7 @@ v1::FrameEstimate FrameOf(const std::string& label, v1::ParameterGroup group, co
 
 v1::SetReport SetReportOf(const SetResult& set, const std::vector<RowOf>& rows) {
   v1::SetReport report;
-  report.set_poses(static_cast<int>(set.before.size()));
+  report.set_poses(UnitsOf(set.before).count);
   *report.mutable_before() = StatisticsToProto(set.before);
   *report.mutable_after() = StatisticsToProto(set.after);
   std::vector<std::pair<int, int>> selected;

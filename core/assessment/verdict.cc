@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kDraws = 2000;
 // Below this many rows a bootstrap has next to nothing to draw from.
-constexpr size_t kFewControlRows = 10;
+constexpr int kFewControlRows = 10;
 
 int DroppedForReadings(const IdentifiableSet& set) {
   return static_cast<int>(
@@ -22,7 +22,7 @@ int DroppedForReadings(const IdentifiableSet& set) {
                     [](const NullRelation& relation) { return !relation.structural; }));
 }
 
-void JudgeControlSize(size_t rows, Verdict* verdict) {
+void JudgeControlSize(int rows, Verdict* verdict) {
   if (rows >= kFewControlRows) return;
   verdict->decision = Decision::kApplyWithinVolume;
   verdict->reasons.push_back(
@@ -35,10 +35,11 @@ void JudgeControl(const std::vector<PoseError>& before, const std::vector<PoseEr
                   Verdict* verdict) {
   const double ratio = PoseStatisticsOf(after).position_m.rms /
                        std::max(PoseStatisticsOf(before).position_m.rms, 1e-12);
+  const int rows = UnitsOf(before).count;
   const auto [low, high] = BootstrapRatio(before, after);
   verdict->reasons.push_back(absl::StrFormat(
       "control RMS position after / before is %.3f, 95 %% interval %.3f to %.3f over %d rows",
-      ratio, low, high, before.size()));
+      ratio, low, high, rows));
   if (!(high < 1)) {
     verdict->decision = Decision::kDoNotApply;
     verdict->reasons.push_back("an improvement on the control set is not proved");
@@ -76,6 +77,14 @@ void JudgeUnexplained(const ModelError& error, Verdict* verdict) {
       1e3 * kMostUnexplained_m, kMostUnexplained_rad * 180 / std::numbers::pi));
 }
 
+// Sums of squares of the units.
+Eigen::VectorXd SquaresOf(const std::vector<PoseError>& errors, const Units& units) {
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(units.count);
+  for (size_t i = 0; i < errors.size(); ++i)
+    squares(units.of[i]) += errors[i].position_m * errors[i].position_m;
+  return squares;
+}
+
 }  // namespace
 
 const char* Name(Decision decision) {
@@ -91,14 +100,17 @@ const char* Name(Decision decision) {
 }
 
 Interval BootstrapRatio(const std::vector<PoseError>& before, const std::vector<PoseError>& after) {
+  const Units units = UnitsOf(before);
+  const Eigen::VectorXd squares_before = SquaresOf(before, units),
+                        squares_after = SquaresOf(after, units);
   Random random(1);
   std::vector<double> ratios;
   for (int draw = 0; draw < kDraws; ++draw) {
     double b = 0, a = 0;
-    for (size_t i = 0; i < before.size(); ++i) {
-      const size_t k = random.Below(before.size());
-      b += before[k].position_m * before[k].position_m;
-      a += after[k].position_m * after[k].position_m;
+    for (int i = 0; i < units.count; ++i) {
+      const auto k = static_cast<Eigen::Index>(random.Below(static_cast<uint64_t>(units.count)));
+      b += squares_before(k);
+      a += squares_after(k);
     }
     ratios.push_back(std::sqrt(a / std::max(b, 1e-24)));
   }
@@ -116,7 +128,7 @@ Verdict Judge(const Identification& identification, const ParameterSet& paramete
     verdict.reasons.push_back(absl::StrCat(
         dropped, " parameters stayed nominal because these readings do not determine them"));
   }
-  JudgeControlSize(control_before.size(), &verdict);
+  JudgeControlSize(UnitsOf(control_before).count, &verdict);
   if (!control_before.empty()) JudgeControl(control_before, control_after, &verdict);
   JudgeSizes(identification.estimate.lambda, parameters, &verdict);
   JudgeUnexplained(identification.model_error, &verdict);

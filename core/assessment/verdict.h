@@ -19,9 +19,9 @@ struct Verdict {
 
 const char* Name(Decision decision);
 
-// Paired bootstrap of the ratio of control RMS positions after / before: 2,000 draws of rows with
-// replacement, fixed seed; @returns its 2.5 % and 97.5 % quantiles. @param before, after the same
-// rows in the same order, not empty.
+// Paired bootstrap of the ratio of control RMS positions after / before: 2,000 draws of rows (with
+// all points of a row) with replacement, fixed seed; @returns its 2.5 % and 97.5 % quantiles.
+// @param before, after the same readings in the same order, not empty.
 struct Interval {
   double low, high;
 };
@@ -32,7 +32,7 @@ Interval BootstrapRatio(const std::vector<PoseError>& before, const std::vector<
 // nor when s_model exceeds 5 mm or 0.5 deg per axis: real arms leave below 1 mm, so units, joints,
 // anchors or the robot file are wrong, or the start was, whatever the ratio says;
 // apply_within_volume when parameters stayed nominal for want of readings, or when there are
-// fewer than 10 control rows; apply otherwise.
+// fewer than 10 control rows; apply otherwise. Several points of one row are one row everywhere.
 // @param parameters those of the model, beside identification.estimate.lambda.
 Verdict Judge(const Identification& identification, const ParameterSet& parameters,
               const std::vector<PoseError>& control_before,

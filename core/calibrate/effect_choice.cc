@@ -5,21 +5,11 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/base/random.h"
-#include "core/calibrate/sets.h"
+#include "core/identification/folds.h"
 #include "core/identification/prior.h"
 
 namespace truepose {
 namespace {
-
-std::vector<int> FoldOfUnits(int units, const EffectChoiceOptions& options) {
-  std::vector<int> folds(units);
-  for (int i = 0; i < units; ++i) folds[i] = i % options.folds;
-  Random random(options.seed);
-  for (int i = units - 1; i > 0; --i)
-    std::swap(folds[i], folds[random.Below(static_cast<uint64_t>(i) + 1)]);
-  return folds;
-}
 
 // The linearised problem of all candidates, effects included, with a fold for each row.
 class Linearised {
@@ -27,16 +17,16 @@ class Linearised {
   Linearised(const Problem& problem, const Estimate& estimate, const ModelError& error,
              const EffectChoiceOptions& options)
       : system_(Whitened(problem, estimate, error)), names_(Candidates(problem)) {
-    const std::vector<int> units = UnitsOf(problem);
-    units_ = units.empty() ? 0 : 1 + *std::max_element(units.begin(), units.end());
-    const std::vector<int> fold_of_unit = FoldOfUnits(units_, options);
+    const Units units = UnitsOf(problem);
+    units_ = units.count;
+    folds_ = std::max(1, std::min(options.folds, units_));
+    const Folds folds = DealFolds(units, folds_, options.seed);
     for (size_t i = 0; i < problem.readings.size(); ++i) {
       for (int row = 0; row < RowsOf(problem.readings[i]); ++row) {
-        unit_.push_back(units[i]);
-        fold_.push_back(fold_of_unit[units[i]]);
+        unit_.push_back(units.of[i]);
+        fold_.push_back(folds.fold_of[units.of[i]]);
       }
     }
-    folds_ = options.folds;
   }
 
   int units() const { return units_; }
@@ -47,9 +37,9 @@ class Linearised {
     for (int column : columns) names.Add(names_[column]);
     IdentifiabilityOptions options;
     options.use_sd_bounds = false;
+    const Eigen::MatrixXd J = system_.J(Eigen::all, columns);
     std::vector<int> kept;
-    for (int index : Identifiable(system_.J(Eigen::all, columns), names, options).active)
-      kept.push_back(columns[index]);
+    for (int index : Identifiable(J, names, options).active) kept.push_back(columns[index]);
     return kept;
   }
 
@@ -78,8 +68,7 @@ class Linearised {
   double FittedRms(const std::vector<int>& columns) const {
     const Eigen::MatrixXd J = Scaled(columns);
     const Eigen::VectorXd left = system_.r - J * J.householderQr().solve(system_.r);
-    const auto readings = static_cast<Eigen::Index>(unit_.size());  // rows of the prior come last
-    return std::sqrt(left.head(readings).squaredNorm() / static_cast<double>(readings));
+    return std::sqrt(left.head(ReadingRows()).squaredNorm() / static_cast<double>(ReadingRows()));
   }
 
   double Rms(const std::vector<double>& squares) const {
@@ -88,6 +77,9 @@ class Linearised {
   }
 
  private:
+  // Those of the prior come after them.
+  Eigen::Index ReadingRows() const { return static_cast<Eigen::Index>(unit_.size()); }
+
   // The columns, each of norm 1: their units don't matter here, nor does their sign.
   Eigen::MatrixXd Scaled(const std::vector<int>& columns) const {
     Eigen::MatrixXd J = system_.J(Eigen::all, columns);

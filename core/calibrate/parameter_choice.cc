@@ -1,7 +1,5 @@
 #include "core/calibrate/parameter_choice.h"
 
-#include "core/calibrate/sets.h"
-
 namespace truepose {
 namespace {
 
@@ -27,7 +25,7 @@ absl::StatusOr<SelectionResult> ChooseParameters(const Problem& problem, const I
     }
   }
   SelectionOptions by_row = options;
-  by_row.units = UnitsOf(problem);
+  by_row.units = UnitsOf(problem).of;
   return Select(problem, full.model_error, start, base, candidates, by_row, hooks);
 }
 
