@@ -11,6 +11,17 @@
 namespace truepose {
 namespace {
 
+// What is known of the parameters before the readings, effects among them: the prior of the
+// problem that is solved.
+Prior WidenedPrior(const Problem& problem, const Model& wide) {
+  Prior prior = problem.prior.value_or(NoPrior(problem.model->parameters));
+  const Eigen::Index size = wide.parameters.size();
+  prior.mean.conservativeResizeLike(Eigen::VectorXd::Zero(size));
+  prior.root.conservativeResizeLike(Eigen::MatrixXd::Zero(prior.root.rows(), size));
+  AddEffectPrior(wide.parameters, &prior);
+  return prior;
+}
+
 // The linearised problem of all candidates, effects included, with a fold for each row.
 class Linearised {
  public:
@@ -31,13 +42,13 @@ class Linearised {
 
   int units() const { return units_; }
 
-  // Of `columns`, those that are independent.
+  // Of `columns`, those that are independent by the readings alone, as when they are identified.
   std::vector<int> Independent(const std::vector<int>& columns) const {
     ParameterSet names;
     for (int column : columns) names.Add(names_[column]);
     IdentifiabilityOptions options;
     options.use_sd_bounds = false;
-    const Eigen::MatrixXd J = system_.J(Eigen::all, columns);
+    const Eigen::MatrixXd J = system_.J.topRows(ReadingRows())(Eigen::all, columns);
     std::vector<int> kept;
     for (int index : Identifiable(J, names, options).active) kept.push_back(columns[index]);
     return kept;
@@ -190,8 +201,7 @@ EffectChoice ChooseEffects(const Robot& robot, const Problem& problem,
   for (EffectGroup group : AvailableEffects(robot, problem)) AddEffects(robot, group, &wide);
   Problem with_effects = problem;
   with_effects.model = &wide;
-  with_effects.prior = NoPrior(wide.parameters);
-  AddEffectPrior(wide.parameters, &*with_effects.prior);
+  with_effects.prior = WidenedPrior(problem, wide);
   Estimate estimate = geometric.estimate;
   estimate.lambda.conservativeResizeLike(Eigen::VectorXd::Zero(wide.parameters.size()));
   const Linearised system(with_effects, estimate, geometric.model_error, options);
