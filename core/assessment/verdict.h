@@ -27,7 +27,8 @@ struct Interval {
 };
 Interval BootstrapRatio(const std::vector<PoseError>& before, const std::vector<PoseError>& after);
 
-// do_not_apply when the solver did not converge, when that interval does not lie below 1, or when a
+// do_not_apply when the solver did not converge, when that interval does not lie below 1 (below 5
+// control rows there is none, and the ratio itself must), or when a
 // correction exceeds 100 mm or 10 deg: no robot is that wrong, so joints, units or robot file are;
 // nor when s_model exceeds 5 mm or 0.5 deg per axis: real arms leave below 1 mm, so units, joints,
 // anchors or the robot file are wrong, or the start was, whatever the ratio says;

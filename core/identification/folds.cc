@@ -83,10 +83,11 @@ absl::Status CheckFolds(const Problem& problem, const ModelError& model_error,
   for (int fold = 0; fold < folds.count; ++fold) {
     const int rank = RankOf(Without(problem, folds, fold), model_error, estimate, active);
     if (rank == static_cast<int>(active.size())) continue;
-    faults.Add("folds",
+    faults.Add("options.select",
                absl::StrCat("without fold ", fold + 1, " of ", folds.count,
                             " the readings determine ", rank, " of ", active.size(), " parameters"),
-               "more folds, or units that leave every placement and target some readings");
+               "more rows of every placement and target, or a choice without folds (none, forward, "
+               "bic)");
   }
   return faults.ToStatus(absl::StatusCode::kFailedPrecondition);
 }
