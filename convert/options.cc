@@ -117,6 +117,9 @@ void ReadEffects(const std::string& text, CalibrateOptions* options, FaultList* 
     auto& groups = options->effect_groups;
     if (std::find(groups.begin(), groups.end(), group) == groups.end()) groups.push_back(group);
   }
+  if (options->effect_groups.empty())
+    faults->Add("options.effects", absl::StrCat("'", text, "', an empty list"),
+                "none, auto or a list of effects");
 }
 
 Eigen::MatrixXd SquareOf(const google::protobuf::RepeatedField<double>& values, int size) {

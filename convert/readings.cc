@@ -147,6 +147,7 @@ class Collector {
 
   void Append(int s, int row, int position, Reading reading) {
     reading.id = static_cast<int>(result_.rows.size());
+    reading.row = position;
     result_.problem.readings.push_back(std::move(reading));
     result_.rows.push_back({s, row});
     result_.position.push_back(position);

@@ -207,7 +207,7 @@ void ShowEarlierFrames(const v1::PriorCalibration& earlier, v1::CalibrationRepor
 
 v1::SetReport SetReportOf(const SetResult& set, const std::vector<RowOf>& rows) {
   v1::SetReport report;
-  report.set_poses(static_cast<int>(set.before.size()));
+  report.set_poses(UnitsOf(set.before).count);
   *report.mutable_before() = StatisticsToProto(set.before);
   *report.mutable_after() = StatisticsToProto(set.after);
   std::vector<std::pair<int, int>> selected;

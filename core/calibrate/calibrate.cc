@@ -14,15 +14,21 @@
 namespace truepose {
 namespace {
 
+// What a robust loss took from readings it takes from every choice and test that follows.
+void KeepWeights(const std::vector<double>& weights, Problem* problem) {
+  for (size_t i = 0; i < problem->readings.size(); ++i) problem->readings[i].weight = weights[i];
+}
+
 absl::Status IdentifyParameters(CalibrationRun* run, double from, double to,
                                 CalibrationResult* result) {
-  const Problem& part = run->part.problem;
+  Problem& part = run->part.problem;
   const IdentifiableSet generic = GenericIdentifiable(part, *run->problem.robot);
   result->generic_rank = static_cast<int>(generic.active.size());
   result->counts = CountParameters(*run->problem.robot, part, generic);
   TRUEPOSE_ASSIGN_OR_RETURN(result->identification,
                             Identify(part, generic, result->before, run->identify,
                                      run->stages.For("identification", from, to)));
+  KeepWeights(result->identification.weights, &part);
   result->candidates = Candidates(part);
   return CheckRedundancy(result->identification);
 }

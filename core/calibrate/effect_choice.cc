@@ -7,20 +7,22 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
-#include "core/base/random.h"
 #include "core/calibrate/sets.h"
+#include "core/identification/folds.h"
 #include "core/identification/prior.h"
 
 namespace truepose {
 namespace {
 
-std::vector<int> FoldOfUnits(int units, const EffectChoiceOptions& options) {
-  std::vector<int> folds(units);
-  for (int i = 0; i < units; ++i) folds[i] = i % options.folds;
-  Random random(options.seed);
-  for (int i = units - 1; i > 0; --i)
-    std::swap(folds[i], folds[random.Below(static_cast<uint64_t>(i) + 1)]);
-  return folds;
+// What is known of the parameters before the readings, effects among them: the prior of the
+// problem that is solved.
+Prior WidenedPrior(const Problem& problem, const Model& wide) {
+  Prior prior = problem.prior.value_or(NoPrior(problem.model->parameters));
+  const Eigen::Index size = wide.parameters.size();
+  prior.mean.conservativeResizeLike(Eigen::VectorXd::Zero(size));
+  prior.root.conservativeResizeLike(Eigen::MatrixXd::Zero(prior.root.rows(), size));
+  AddEffectPrior(wide.parameters, &prior);
+  return prior;
 }
 
 // The linearised problem of all candidates, effects included, with a fold for each row.
@@ -29,16 +31,16 @@ class Linearised {
   Linearised(const Problem& problem, const Estimate& estimate, const ModelError& error,
              const EffectChoiceOptions& options)
       : system_(Whitened(problem, estimate, error)), names_(Candidates(problem)) {
-    const std::vector<int> units = UnitsOf(problem);
-    units_ = units.empty() ? 0 : 1 + *std::max_element(units.begin(), units.end());
-    const std::vector<int> fold_of_unit = FoldOfUnits(units_, options);
+    const Units units = UnitsOf(problem);
+    units_ = units.count;
+    folds_ = std::max(1, std::min(options.folds, units_));
+    const Folds folds = DealFolds(units, folds_, options.seed);
     for (size_t i = 0; i < problem.readings.size(); ++i) {
       for (int row = 0; row < RowsOf(problem.readings[i]); ++row) {
-        unit_.push_back(units[i]);
-        fold_.push_back(fold_of_unit[units[i]]);
+        unit_.push_back(units.of[i]);
+        fold_.push_back(folds.fold_of[units.of[i]]);
       }
     }
-    folds_ = options.folds;
   }
 
   // Measured values; those of a prior are not among them. Of a reading six at most: a flange has no
@@ -50,15 +52,15 @@ class Linearised {
   }
   int readings() const { return units_; }
 
-  // Of `columns`, those that are independent.
+  // Of `columns`, those that are independent by the readings alone, as when they are identified.
   std::vector<int> Independent(const std::vector<int>& columns) const {
     ParameterSet names;
     for (int column : columns) names.Add(names_[column]);
     IdentifiabilityOptions options;
     options.use_sd_bounds = false;
+    const Eigen::MatrixXd J = system_.J.topRows(ReadingRows())(Eigen::all, columns);
     std::vector<int> kept;
-    for (int index : Identifiable(system_.J(Eigen::all, columns), names, options).active)
-      kept.push_back(columns[index]);
+    for (int index : Identifiable(J, names, options).active) kept.push_back(columns[index]);
     return kept;
   }
 
@@ -87,8 +89,7 @@ class Linearised {
   double FittedRms(const std::vector<int>& columns) const {
     const Eigen::MatrixXd J = Scaled(columns);
     const Eigen::VectorXd left = system_.r - J * J.householderQr().solve(system_.r);
-    const auto readings = static_cast<Eigen::Index>(unit_.size());  // rows of the prior come last
-    return std::sqrt(left.head(readings).squaredNorm() / static_cast<double>(readings));
+    return std::sqrt(left.head(ReadingRows()).squaredNorm() / static_cast<double>(ReadingRows()));
   }
 
   double Rms(const std::vector<double>& squares) const {
@@ -97,6 +98,9 @@ class Linearised {
   }
 
  private:
+  // Those of the prior come after them.
+  Eigen::Index ReadingRows() const { return static_cast<Eigen::Index>(unit_.size()); }
+
   // The columns, each of norm 1: their units don't matter here, nor does their sign.
   Eigen::MatrixXd Scaled(const std::vector<int>& columns) const {
     Eigen::MatrixXd J = system_.J(Eigen::all, columns);
@@ -252,8 +256,7 @@ EffectChoice ChooseEffects(const Robot& robot, const Problem& problem,
   for (EffectGroup group : AvailableEffects(robot, problem)) AddEffects(robot, group, &wide);
   Problem with_effects = problem;
   with_effects.model = &wide;
-  with_effects.prior = NoPrior(wide.parameters);
-  AddEffectPrior(wide.parameters, &*with_effects.prior);
+  with_effects.prior = WidenedPrior(problem, wide);
   Estimate estimate = geometric.estimate;
   estimate.lambda.conservativeResizeLike(Eigen::VectorXd::Zero(wide.parameters.size()));
   const Linearised system(with_effects, estimate, geometric.model_error, options);
