@@ -61,8 +61,7 @@ FieldWhitener::FieldWhitener(const Problem& problem, const Estimate& estimate,
   Eigen::SparseMatrix<double> S(rows, rows);
   S.setFromTriplets(entries.begin(), entries.end());
   // Poses that repeat exactly without stated noise would leave S singular.
-  const double floor = 1e-6 * S.diagonal().mean();
-  for (int i = 0; i < rows; ++i) S.coeffRef(i, i) += floor;
+  for (int i = 0; i < rows; ++i) S.coeffRef(i, i) *= 1 + 1e-6;
   factor_.compute(S);
 }
 
