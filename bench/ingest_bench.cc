@@ -13,7 +13,6 @@
 #include "bench/peers/raw_sqlite.h"
 #include "bench/rates.h"
 #include "client/client.h"
-#include "convert/run.h"
 #include "server/calibration_runner.h"
 #include "server/server.h"
 
@@ -24,7 +23,7 @@ constexpr Load kSingles{.clients = 64, .messages = 200};
 // A client that goes on while its last readings are under way, as an agent does.
 constexpr Load kStreamedSingles{.clients = 64, .messages = 200, .window = 8};
 constexpr Load kBatches{.clients = 1, .messages = 1'000, .batch = 100, .window = 8};
-constexpr int kRawCommits = 5'000;
+constexpr int kRawCommits = 1'000;
 
 template <typename T>
 T Demand(absl::StatusOr<T> value) {
@@ -52,11 +51,24 @@ std::unique_ptr<server::Server> StartServer(const Folder& folder) {
   return Demand(server::Server::Start(options, server::CalibrationRunner()));
 }
 
+v1::Nominal SixJoints() {
+  v1::Nominal nominal;
+  for (int joint = 0; joint < 6; ++joint) {
+    nominal.add_joints()->set_name("q" + std::to_string(joint + 1));
+    nominal.mutable_joints(joint)->set_type(v1::REVOLUTE);
+    v1::DhRow* row = nominal.mutable_geometry()->mutable_standard_dh()->add_rows();
+    row->set_d_m(0.2);
+    row->set_a_m(0.3);
+    row->set_alpha_rad(joint % 2 == 0 ? 1.5 : 0);
+  }
+  return nominal;
+}
+
 void AddSessions(const std::string& address, int count) {
   const client::Client client = Demand(client::Client::Connect(address));
   v1::CreateRobotRequest robot;
   robot.set_robot_id("arm");
-  *robot.mutable_nominal() = convert::MeasuringRobot();
+  *robot.mutable_nominal() = SixJoints();
   Demand(client.CreateRobot(robot));
   for (int i = 0; i < count; ++i) {
     v1::CreateSessionRequest session;

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -137,6 +139,29 @@ v1::Calibration MessageOf(const v1::CalibrationInput& input, const CalibrationRe
   return calibration;
 }
 
+// Rows that were used without a temperature, where the drift with it was identified.
+int WithoutTemperature(const v1::CalibrationInput& input, const ReadingsProblem& readings) {
+  std::set<std::pair<int, int>> used;
+  for (const RowOf& row : readings.rows) used.emplace(row.session, row.row);
+  int count = 0;
+  for (int s = 0; s < input.sessions_size(); ++s)
+    for (const v1::Reading& reading : input.sessions(s).readings())
+      count += !reading.has_temperature_c() && used.contains({s, reading.row()});
+  return count;
+}
+
+void WarnOfTemperatures(const v1::CalibrationInput& input, const ReadingsProblem& readings,
+                        v1::CalibrationReport* report) {
+  const auto& effects = report->effects();
+  if (std::find(effects.begin(), effects.end(), Name(EffectGroup::kTemperature)) == effects.end())
+    return;
+  const int count = WithoutTemperature(input, readings);
+  if (count == 0) return;
+  report->add_warnings(absl::StrCat(count, count == 1 ? " row has" : " rows have",
+                                    " no temperature: the effect `temperature` takes the mean of "
+                                    "the session for it"));
+}
+
 void FillReport(const v1::CalibrationInput& input, const ReadingsProblem& readings,
                 const std::vector<std::string>& warnings, v1::CalibrationReport* report) {
   report->set_split(input.options().split());
@@ -146,6 +171,7 @@ void FillReport(const v1::CalibrationInput& input, const ReadingsProblem& readin
   for (const std::string& warning : readings.warnings) report->add_warnings(warning);
   for (const std::string& warning : warnings) report->add_warnings(warning);
   WarnOfFrames(report);
+  WarnOfTemperatures(input, readings, report);
 }
 
 // The options' own faults and the robot's, at once.

@@ -58,22 +58,39 @@ NominalAndIdentified ValuesOf(const CalibrationResult& result, int candidate,
   return {0, rest < offsets ? estimate.offsets(rest) : estimate.lambda(rest - offsets)};
 }
 
-// Variances of the values as they are shown. Corrections of a frame's rotation are turns about the
-// axes of its base, shown is the rotation vector r of the whole: d r = J_l^-1(r) d, J_l^-1(r) =
-// J_r^-1(-r).
-Eigen::VectorXd ShownVariances(const CalibrationResult& result) {
+bool IsTurnOfFrame(const Parameter& parameter, int candidate) {
+  const bool frame =
+      parameter.group == ParameterGroup::kBase || parameter.group == ParameterGroup::kTool;
+  return frame && candidate % kFrameParameters >= 3;
+}
+
+// Derivative of a shown rotation coordinate by the active candidates. Corrections of a frame's
+// rotation are turns about the axes of its base, shown is the rotation vector r of the whole:
+// d r = J_l^-1(r) d, J_l^-1(r) = J_r^-1(-r). Turns that are held have no part in it.
+Eigen::RowVectorXd ShownByActive(const CalibrationResult& result, int candidate) {
+  const int axis = candidate % kFrameParameters - 3, first = candidate - axis;
+  Eigen::Vector3d r;
+  for (int k = 0; k < 3; ++k) r(k) = ValuesOf(result, first + k, Pose{}).identified;
+  const Eigen::RowVector3d J = RightJacobianInverse(-r).row(axis);
   const std::vector<int>& active = result.identification.set.active;
+  Eigen::RowVectorXd derivative =
+      Eigen::RowVectorXd::Zero(static_cast<Eigen::Index>(active.size()));
+  for (size_t i = 0; i < active.size(); ++i) {
+    const int turn = active[i] - first;
+    if (turn >= 0 && turn < 3) derivative(static_cast<Eigen::Index>(i)) = J(turn);
+  }
+  return derivative;
+}
+
+// Variances of the values as they are shown.
+Eigen::VectorXd ShownVariances(const CalibrationResult& result) {
   const Eigen::MatrixXd& covariance = result.identification.covariance;
   Eigen::VectorXd variances = covariance.diagonal();
-  for (size_t i = 0; i + 2 < active.size() && i + 2 < static_cast<size_t>(covariance.rows()); ++i) {
-    const bool rotation = result.candidates[active[i]].role == ParameterRole::kExternal &&
-                          active[i] % kFrameParameters == 3 && active[i + 2] == active[i] + 2;
-    if (!rotation) continue;
-    Eigen::Vector3d r;
-    for (int k = 0; k < 3; ++k) r(k) = ValuesOf(result, active[i] + k, Pose{}).identified;
-    const Eigen::Matrix3d J = RightJacobianInverse(-r);
-    const auto at = static_cast<Eigen::Index>(i);
-    variances.segment<3>(at) = (J * covariance.block<3, 3>(at, at) * J.transpose()).diagonal();
+  for (Eigen::Index i = 0; i < variances.size(); ++i) {
+    const int candidate = result.identification.set.active[static_cast<size_t>(i)];
+    if (!IsTurnOfFrame(result.candidates[candidate], candidate)) continue;
+    const Eigen::RowVectorXd derivative = ShownByActive(result, candidate);
+    variances(i) = derivative * covariance * derivative.transpose();
   }
   return variances;
 }

@@ -12,6 +12,7 @@
 #include "server/rpc/listener.h"
 #include "server/services/bindings/bindings.h"
 #include "server/store/store.h"
+#include "server/watch/wake_hub.h"
 
 namespace truepose::server {
 namespace {
@@ -42,11 +43,16 @@ struct Server::Parts {
         engine(*store, std::move(runner), ToEngineOptions(options)),
         handlers(options.handler_threads, kMostWaitingCalls),
         compute(options.compute_threads, kMostWaitingCalls),
-        services(services::BindServices({*store, engine}, {handlers, compute}, drain)) {}
+        services(services::BindServices({*store, engine}, {handlers, compute}, drain,
+                                        {.hub = hub, .stall = options.watch_stall})) {
+    store->OnCommit([this] { hub.Changed(); });
+  }
+  ~Parts() { store->OnCommit({}); }
 
   const ServerOptions options;
   const std::unique_ptr<store::Store> store;
   jobs::JobEngine engine;
+  watch::WakeHub hub;
   rpc::Drain drain;
   rpc::Executor handlers, compute;
   const std::vector<std::unique_ptr<grpc::Service>> services;

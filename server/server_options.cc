@@ -23,6 +23,8 @@ absl::Status ServerOptions::Validate() const {
   CheckCount("compute_threads", compute_threads, 64, faults);
   if (drain < absl::ZeroDuration())
     faults.Add("drain", absl::FormatDuration(drain), "not negative");
+  if (watch_stall <= absl::ZeroDuration())
+    faults.Add("watch_stall", absl::FormatDuration(watch_stall), "more than 0");
   return faults.ToStatus();
 }
 

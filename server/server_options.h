@@ -17,6 +17,8 @@ struct ServerOptions {
   int compute_threads = 2;  // evaluations and compensations at once
   absl::Duration drain =
       absl::Seconds(10);  // what calls under way get at the end before they are cut
+  absl::Duration watch_stall =
+      absl::Seconds(20);  // a watcher that doesn't take a message for so long is cut
 
   // Every fault at once, with the option's name as field.
   absl::Status Validate() const;

@@ -19,7 +19,8 @@ struct PositionPrediction {
 };
 
 std::vector<PositionPrediction> Predictions(const Problem& problem,
-                                            const Identification& identification) {
+                                            const Identification& identification,
+                                            const Eigen::MatrixXd& C) {
   Problem readings_alone = problem;
   readings_alone.prior.reset();
   Whiteners identity;
@@ -36,9 +37,8 @@ std::vector<PositionPrediction> Predictions(const Problem& problem,
     unweighted.weight = 1;
     const ResidualMatrix R =
         CovarianceOf(problem, unweighted, identification.estimate, identification.model_error);
-    predictions.push_back({system.raw.segment(row, rows),
-                           J * identification.covariance * J.transpose(),
-                           R.topLeftCorner(rows, rows)});
+    predictions.push_back(
+        {system.raw.segment(row, rows), J * C * J.transpose(), R.topLeftCorner(rows, rows)});
     row += RowsOf(reading);
   }
   return predictions;
@@ -54,7 +54,8 @@ double SizeIn(const Eigen::VectorXd& r, const Eigen::MatrixXd& S) {
 // with three count alike.
 double RegionFactor(const Problem& calibration, const Identification& identification) {
   std::vector<double> ratios;
-  for (const PositionPrediction& p : Predictions(calibration, identification)) {
+  for (const PositionPrediction& p :
+       Predictions(calibration, identification, ScatterCovariance(identification))) {
     const double size = SizeIn(p.r, p.of_reading - p.of_parameters);
     if (size >= 0)
       ratios.push_back(size / ChiSquareQuantile(kRegion, static_cast<int>(p.r.size())));
@@ -89,7 +90,8 @@ PredictedAccuracy Predicted(const Problem& control, const Problem& calibration,
   if (identification.covariance.size() == 0 || control.readings.empty()) return result;
   const double factor = RegionFactor(calibration, identification);
   double traces = 0;
-  for (const PositionPrediction& p : Predictions(control, identification)) {
+  for (const PositionPrediction& p :
+       Predictions(control, identification, identification.covariance)) {
     const Eigen::MatrixXd S = p.of_parameters + p.of_reading;
     ++result.control;
     result.inside += Inside(p.r, S, factor);

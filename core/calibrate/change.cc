@@ -37,7 +37,8 @@ ChangeTest TestChange(const Problem& problem, const Eigen::VectorXd& stored_lamb
   const Eigen::MatrixXd J =
       Whitened(problem, identification->estimate, identification->model_error).J;
   const Eigen::MatrixXd C = identification->covariance;
-  const Eigen::MatrixXd G = -C * (J(Eigen::all, active).transpose() * ColumnsOf(problem, J, held));
+  const Eigen::MatrixXd G = -ScatterCovariance(*identification) *
+                            (J(Eigen::all, active).transpose() * ColumnsOf(problem, J, held));
   identification->covariance += G * stored_covariance(held, held) * G.transpose();
 
   ChangeTest test;

@@ -35,6 +35,7 @@ struct NullRelation {
   std::vector<std::pair<int, double>> kept;  // candidate, coefficient in SI units
   bool undetermined = false;  // true: not dependent, but too weak; `kept` is then empty
   bool structural = false;    // true: holds for any poses of this kind of measurement
+  bool of_sockets = false;    // true: a base correction of a placement that only sockets tell
 };
 
 struct IdentifiableSet {
@@ -61,7 +62,9 @@ IdentifiableSet Identifiable(const Eigen::MatrixXd& J, const ParameterSet& candi
 IdentifiableSet GenericIdentifiable(const Problem& problem, const Robot& robot);
 
 // "dbeta2 acts as 1 dq2 - 612.7 mm/rad db3": for people, terms by size. Relations that involve base
-// or tool name the frame instead of its six terms.
+// or tool name the frame instead of its six terms. A base correction that the others of its frame
+// make up is a motion of the base that shows nowhere, and is named as that: "base.rx = not
+// observable: turn of base about the line of its sockets, along (1, 0, 0)".
 std::string RelationText(const NullRelation& relation, const ParameterSet& candidates);
 // What was done about it: "dh2 = dh3: dropped dh3" for two parameters that act alike (also base and
 // tool by name: "dq1 = a motion of the base frame: dropped dq1"), else RelationText and what was

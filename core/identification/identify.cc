@@ -10,13 +10,17 @@
 #include "absl/strings/str_cat.h"
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
+#include "core/identification/contacts.h"
+#include "core/identification/fixture_error.h"
 #include "core/identification/weighted_solve.h"
 
 namespace truepose {
 namespace {
 
-IdentifiableSet ExternalSet(const Eigen::MatrixXd& J, const Problem& problem,
+IdentifiableSet ExternalSet(const Problem& problem, const Identification& start,
                             IdentifiabilityOptions options) {
+  const Eigen::MatrixXd J =
+      Whitened(AtContacts(problem, start.estimate), start.estimate, start.model_error).J;
   ParameterSet external;
   const ParameterSet all = Candidates(problem);
   for (int i = 0; i < problem.FirstInternal(); ++i) external.Add(all[i]);
@@ -24,15 +28,21 @@ IdentifiableSet ExternalSet(const Eigen::MatrixXd& J, const Problem& problem,
   return Identifiable(J.leftCols(problem.FirstInternal()), external, options);
 }
 
-void Finish(const Problem& problem, Identification* result) {
+// identify.h. 0 when nothing is left over.
+double WeightedVariance(const WhitenedSystem& system, int active, double consistency) {
+  const double redundancy = consistency * (system.weight.sum() - active);
+  return redundancy > 0 ? system.weight.dot(system.r.cwiseAbs2()) / redundancy : 0;
+}
+
+void Finish(const Problem& problem, const IdentifyOptions& options, Identification* result) {
   const WhitenedSystem system = Whitened(problem, result->estimate, result->model_error);
   const int prior_rows = problem.prior ? static_cast<int>(problem.prior->root.rows()) : 0;
   const int active = static_cast<int>(result->set.active.size());
   const int all_rows = static_cast<int>(system.r.size());
-  const double sum = system.r.squaredNorm();
   result->rows = all_rows - prior_rows;
-  result->weighted_residual_variance = all_rows > active ? sum / (all_rows - active) : 0;
-  result->summary.final_cost = sum / 2;
+  result->weighted_residual_variance =
+      WeightedVariance(system, active, MeanConsistency(options.loss, problem));
+  result->summary.final_cost = system.r.squaredNorm() / 2;
   result->weights.clear();
   for (const Reading& reading : problem.readings) result->weights.push_back(reading.weight);
   if (result->summary.covariance_approximate) {
@@ -40,6 +50,10 @@ void Finish(const Problem& problem, Identification* result) {
   } else if (all_rows >= active) {
     result->covariance = ParameterCovariance(system.J, result->set.active);
   }
+  if (options.scale_covariance) result->covariance *= result->weighted_residual_variance;
+  result->fixture_covariance = FixtureCovariance(problem, result->estimate, result->model_error,
+                                                 system, result->set.active, result->covariance);
+  if (result->fixture_covariance.size() > 0) result->covariance += result->fixture_covariance;
 }
 
 // Whether a candidate is a base correction of a placement that is known by contact only.
@@ -48,6 +62,15 @@ bool IsFreeByContact(const Problem& problem, int candidate) {
   const int placement = candidate / kFrameParameters;
   return std::all_of(problem.readings.begin(), problem.readings.end(),
                      [&](const Reading& r) { return r.placement != placement || r.contact; });
+}
+
+// Of the placements known by contact only, those whose every contact is a point.
+bool IsOfSockets(const Problem& problem, int candidate) {
+  if (!IsFreeByContact(problem, candidate)) return false;
+  const int placement = candidate / kFrameParameters;
+  return std::all_of(problem.readings.begin(), problem.readings.end(), [&](const Reading& r) {
+    return r.placement != placement || PositionRowsOf(r) == 3;
+  });
 }
 
 // Whether other readings of the same sort could not determine the candidate either.
@@ -60,6 +83,7 @@ void MarkStructural(const Problem& problem, const IdentifiableSet& generic, Iden
   for (NullRelation& relation : set->redundancies) {
     relation.structural =
         !relation.undetermined && IsStructural(problem, generic, relation.dropped);
+    relation.of_sockets = IsOfSockets(problem, relation.dropped);
   }
 }
 
@@ -100,11 +124,11 @@ bool HoldsGeometry(const Problem& problem) {
   return false;
 }
 
-// Always at nominal lambda, and by the readings alone: there the model's own redundancies are
-// exact. At identified parameters two nominally parallel axes are a milliradian apart, a redundant
-// parameter looks independent, and the basis that keeps it in place of a strong one is worse
-// conditioned by a factor of 1,000 (UR10: 15,000 against 50). With a prior nothing would be
-// redundant, and all would be spread over redundant parameters.
+// Always at nominal lambda, at joints where contacts are exact, and by the readings alone: there
+// the model's own redundancies are exact. At identified parameters two nominally parallel axes are
+// a milliradian apart, a redundant parameter looks independent, and the basis that keeps it in
+// place of a strong one is worse conditioned by a factor of 1,000 (UR10: 15,000 against 50). With a
+// prior nothing would be redundant, and all would be spread over redundant parameters.
 IdentifiableSet SetAtNominal(const Problem& problem, const Identification& before,
                              const ModelError& model_error, const IdentifyOptions& options,
                              bool use_sd_bounds) {
@@ -114,7 +138,7 @@ IdentifiableSet SetAtNominal(const Problem& problem, const Identification& befor
   identifiability.use_sd_bounds =
       identifiability.use_sd_bounds && use_sd_bounds && !HoldsGeometry(problem);
   const FreeColumns columns = FreeOf(problem, options.free);
-  Eigen::MatrixXd J = Whitened(problem, nominal, model_error).J;
+  Eigen::MatrixXd J = Whitened(AtContacts(problem, nominal), nominal, model_error).J;
   if (problem.prior) J.bottomRows(problem.prior->root.rows()).setZero();
   IdentifiableSet set =
       Identifiable(J(Eigen::all, columns.candidates), columns.names, identifiability);
@@ -181,6 +205,11 @@ absl::Status CheckFrames(const Problem& problem, const IdentifiableSet& generic,
   return faults.ToStatus(absl::StatusCode::kFailedPrecondition);
 }
 
+Eigen::MatrixXd ScatterCovariance(const Identification& identification) {
+  if (identification.fixture_covariance.size() == 0) return identification.covariance;
+  return identification.covariance - identification.fixture_covariance;
+}
+
 Eigen::MatrixXd ParameterCovariance(const Eigen::MatrixXd& J, const std::vector<int>& active) {
   Eigen::MatrixXd columns = J(Eigen::all, active);
   const Eigen::VectorXd scale = columns.colwise().norm().cwiseInverse();
@@ -200,15 +229,14 @@ absl::StatusOr<Identification> FitFrames(const Problem& problem, const Estimate&
   direct.solve.estimator = Estimator::kLevenbergMarquardt;
   Identification result;
   result.estimate = start;
-  result.set = ExternalSet(Whitened(frames_alone, start, result.model_error).J, problem,
-                           options.identifiability);
+  result.set = ExternalSet(frames_alone, result, options.identifiability);
   if (!options.free.empty()) {
     const std::set<int> free(options.free.begin(), options.free.end());
     std::erase_if(result.set.active, [&](int candidate) { return !free.contains(candidate); });
   }
   TRUEPOSE_RETURN_IF_ERROR(
       SolveWithWeights(result.set.active, direct, hooks, &frames_alone, &result));
-  Finish(frames_alone, &result);
+  Finish(frames_alone, direct, &result);
   return result;
 }
 
@@ -224,8 +252,7 @@ absl::StatusOr<Identification> Identify(const Problem& problem, const Identifiab
   if (options.free.empty()) TRUEPOSE_RETURN_IF_ERROR(CheckFrames(problem, generic, result.set));
   TRUEPOSE_RETURN_IF_ERROR(SolveKept(before, options, hooks, &weighed, &result));
   MarkStructural(problem, generic, &result.set);
-  Finish(weighed, &result);
-  if (options.scale_covariance) result.covariance *= result.weighted_residual_variance;
+  Finish(weighed, options, &result);
   return result;
 }
 

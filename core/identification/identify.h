@@ -20,12 +20,20 @@ namespace truepose {
 struct Identification {
   Estimate estimate;
   ModelError model_error;
-  IdentifiableSet set;          // redundancies marked structural where they hold for any poses
-  Eigen::MatrixXd covariance;   // of set.active, in their order; SI
-  SolveSummary summary;         // of the whole loop: first cost, last cost, iterations summed
+  IdentifiableSet set;         // redundancies marked structural where they hold for any poses
+  Eigen::MatrixXd covariance;  // of set.active, in their order; SI
+  // What of the covariance comes from a fixture's own errors (fixture_error.h), which more contacts
+  // do not lessen; empty without.
+  Eigen::MatrixXd fixture_covariance;
+  // Of the whole loop: first cost, last cost, iterations and evaluations summed over the rounds of
+  // weights. An estimator that runs once, on the weights found: those of its one run.
+  SolveSummary summary;
   std::vector<double> weights;  // of the readings; all 1 without a robust loss
   int rows = 0;                 // measured values; those of a prior are not among them
-  double weighted_residual_variance = 0;  // 2 cost / (rows - active): 1 where the weights settled
+  // Sum of (w d)^2 / [k (sum of w - active)] over rows of residual d standard deviations, with the
+  // weights w of a robust loss and its consistency k (robust.h): 1 where the weights settled.
+  // Without a loss w = k = 1, 2 cost / (rows - active). Rows of a prior are among them.
+  double weighted_residual_variance = 0;
 };
 
 struct IdentifyOptions {
@@ -67,6 +75,9 @@ absl::Status CheckFrames(const Problem& problem, const IdentifiableSet& generic,
 absl::StatusOr<Identification> Identify(const Problem& problem, const IdentifiableSet& generic,
                                         const Identification& before,
                                         const IdentifyOptions& options, const Hooks& hooks);
+
+// The covariance without the fixture's share: what the scatter of the readings alone leaves.
+Eigen::MatrixXd ScatterCovariance(const Identification& identification);
 
 // (J'J)^-1 of the active columns, by QR of the columns scaled to norm 1. @param J rows >= active.
 Eigen::MatrixXd ParameterCovariance(const Eigen::MatrixXd& J, const std::vector<int>& active);

@@ -1,5 +1,7 @@
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
@@ -21,9 +23,11 @@ bool IsExternal(const ParameterSet& candidates, const std::pair<int, double>& te
   return candidates[term.first].group != ParameterGroup::kInternal;
 }
 
-std::string FrameName(const Parameter& parameter) {
-  return parameter.name.substr(0, parameter.name.rfind('.')) + " frame";
+std::string FrameOf(const Parameter& parameter) {
+  return parameter.name.substr(0, parameter.name.rfind('.'));
 }
+
+std::string FrameName(const Parameter& parameter) { return FrameOf(parameter) + " frame"; }
 
 // "a motion of the base frame", once for each frame that takes part.
 std::vector<std::string> FrameTerms(const NullRelation& relation, const ParameterSet& candidates) {
@@ -34,6 +38,42 @@ std::vector<std::string> FrameTerms(const NullRelation& relation, const Paramete
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
   return names;
+}
+
+// The motion of a base frame that shows nowhere: rates of (x, y, z, rx, ry, rz).
+std::optional<Eigen::Matrix<double, kFrameParameters, 1>> HiddenMotion(
+    const NullRelation& relation, const ParameterSet& candidates) {
+  const Parameter& dropped = candidates[relation.dropped];
+  if (dropped.group != ParameterGroup::kBase || relation.undetermined ||
+      (relation.kept.empty() && !relation.of_sockets))
+    return std::nullopt;
+  Eigen::Matrix<double, kFrameParameters, 1> motion =
+      Eigen::Matrix<double, kFrameParameters, 1>::Zero();
+  motion(CorrectionOf(dropped)) = 1;
+  for (const auto& [kept, c] : relation.kept) {
+    if (FrameName(candidates[kept]) != FrameName(dropped)) return std::nullopt;
+    motion(CorrectionOf(candidates[kept])) -= c;
+  }
+  return motion;
+}
+
+std::string DirectionText(const Eigen::Vector3d& v) {
+  Eigen::Vector3d u = v.normalized();
+  u = (u.array().abs() < 1e-6).select(0, u);
+  return absl::StrFormat("(%.4g, %.4g, %.4g)", u.x(), u.y(), u.z());
+}
+
+// A turn about a line has no velocity along it at the frame's origin, nor anywhere.
+std::string MotionText(const NullRelation& relation, const ParameterSet& candidates) {
+  const auto motion = HiddenMotion(relation, candidates);
+  if (!motion) return "";
+  const Eigen::Vector3d v = motion->head<3>(), w = motion->tail<3>();
+  const std::string frame = FrameOf(candidates[relation.dropped]);
+  if (w.isZero()) return absl::StrCat("shift of ", frame, " along ", DirectionText(v));
+  const bool turn = std::abs(v.dot(w)) < 1e-6 * w.squaredNorm();
+  return absl::StrCat(turn ? "turn of " : "screw motion of ", frame, " about ",
+                      relation.of_sockets ? "the line of its sockets" : "a line", ", along ",
+                      DirectionText(w));
 }
 
 // Coefficients this near to 1 are 1: a basis at generic poses leaves about 1e-12 of rounding.
@@ -49,6 +89,8 @@ bool ActsAlike(const NullRelation& relation, const ParameterSet& candidates) {
 std::string RelationText(const NullRelation& relation, const ParameterSet& candidates) {
   const Parameter& dropped = candidates[relation.dropped];
   if (relation.undetermined) return absl::StrCat(dropped.name, " = too weak to be told");
+  if (const std::string motion = MotionText(relation, candidates); !motion.empty())
+    return absl::StrCat(dropped.name, " = not observable: ", motion);
   if (relation.kept.empty()) return absl::StrCat(dropped.name, " = no effect");
   std::vector<std::string> terms = FrameTerms(relation, candidates);
   for (const auto& term : relation.kept) {
@@ -72,6 +114,8 @@ std::string ReasonText(const NullRelation& relation, const ParameterSet& candida
   if (relation.undetermined) {
     return absl::StrCat(name, " is known too weakly from these readings; it stays at nominal");
   }
+  if (const std::string motion = MotionText(relation, candidates); !motion.empty())
+    return absl::StrCat(motion, ": not observable ", always, "; ", name, " stays where it started");
   if (relation.kept.empty())
     return absl::StrCat(name, " does not show in this measurement ", always);
   if (ActsAlike(relation, candidates))

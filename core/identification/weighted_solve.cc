@@ -19,20 +19,12 @@ bool Stands(const ModelError& a, const ModelError& b, double tolerance) {
 void Accumulate(const SolveSummary& round, SolveSummary* total) {
   const bool first = total->iterations == 0;
   const double initial = first ? round.initial_cost : total->initial_cost;
-  const int iterations = total->iterations + round.iterations;
+  const int iterations = total->iterations + round.iterations,
+            evaluations = total->evaluations + round.evaluations;
   *total = round;
   total->initial_cost = initial;
   total->iterations = iterations;
-}
-
-// The mean over the readings; they seldom differ in their number of rows.
-double MeanConsistency(Loss loss, const Problem& problem) {
-  if (loss == Loss::kNone) return 1;
-  double of_rows[7] = {};
-  for (int rows = 1; rows <= 6; ++rows) of_rows[rows] = Consistency(loss, rows);
-  double sum = 0;
-  for (const Reading& reading : problem.readings) sum += of_rows[RowsOf(reading)];
-  return sum / static_cast<double>(problem.readings.size());
+  total->evaluations = evaluations;
 }
 
 ModelError NextModelError(const Problem& problem, const std::vector<int>& active,
@@ -69,6 +61,15 @@ absl::Status Loop(Loss loss, const std::vector<int>& active, const IdentifyOptio
 }
 
 }  // namespace
+
+double MeanConsistency(Loss loss, const Problem& problem) {
+  if (loss == Loss::kNone) return 1;
+  double of_rows[7] = {};
+  for (int rows = 1; rows <= 6; ++rows) of_rows[rows] = Consistency(loss, rows);
+  double sum = 0;
+  for (const Reading& reading : problem.readings) sum += of_rows[RowsOf(reading)];
+  return sum / static_cast<double>(problem.readings.size());
+}
 
 absl::Status SolveWithWeights(const std::vector<int>& active, const IdentifyOptions& options,
                               const Hooks& hooks, Problem* problem, Identification* result) {

@@ -15,4 +15,8 @@ namespace truepose {
 absl::Status SolveWithWeights(const std::vector<int>& active, const IdentifyOptions& options,
                               const Hooks& hooks, Problem* problem, Identification* result);
 
+// robust.h's Consistency over the readings: their mean, as they seldom differ in their number of
+// rows; 1 without a loss. @param problem at least one reading.
+double MeanConsistency(Loss loss, const Problem& problem);
+
 }  // namespace truepose

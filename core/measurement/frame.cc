@@ -1,5 +1,6 @@
 #include "core/measurement/frame.h"
 
+#include <algorithm>
 #include <array>
 
 #include "absl/strings/str_cat.h"
@@ -38,6 +39,11 @@ Parameter FrameParameter(ParameterGroup group, std::string_view label, int index
       label.empty() ? frame : absl::StrCat(frame, "[", std::string(label), "]");
   return {absl::StrCat(owner, ".", kNames[index]), group, ParameterRole::kExternal,
           index >= 3 ? Unit::kRadian : Unit::kMetre};
+}
+
+int CorrectionOf(const Parameter& parameter) {
+  const std::string end = parameter.name.substr(parameter.name.rfind('.') + 1);
+  return static_cast<int>(std::find(kNames.begin(), kNames.end(), end) - kNames.begin());
 }
 
 }  // namespace truepose

@@ -28,5 +28,7 @@ Pose Corrected(const Pose& X, const double* d, FrameJacobian* J);
 
 // "base.x" ... "base.rz"; with a label "base[label].x".
 Parameter FrameParameter(ParameterGroup group, std::string_view label, int index);
+// The index of a parameter of a base or tool frame.
+int CorrectionOf(const Parameter& parameter);
 
 }  // namespace truepose

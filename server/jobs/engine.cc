@@ -10,9 +10,11 @@
 #include "core/base/status_macros.h"
 #include "server/jobs/running_jobs.h"
 #include "server/jobs/stop_signal.h"
+#include "server/jobs/sweeper.h"
 #include "server/jobs/transitions.h"
 #include "server/jobs/watch_hub.h"
 #include "server/jobs/worker.h"
+#include "server/jobs/worker_context.h"
 
 namespace truepose::jobs {
 
@@ -25,6 +27,10 @@ absl::Status EngineOptions::Validate() const {
   if (deadline <= absl::ZeroDuration())
     faults.Add("deadline", absl::FormatDuration(deadline), "more than 0");
   if (max_attempts < 1) faults.Add("max_attempts", absl::StrCat(max_attempts), "1 or more");
+  if (lease <= absl::ZeroDuration())
+    faults.Add("lease", absl::FormatDuration(lease), "more than 0");
+  if (sweep <= absl::ZeroDuration())
+    faults.Add("sweep", absl::FormatDuration(sweep), "more than 0");
   if (store_retry <= absl::ZeroDuration())
     faults.Add("store_retry", absl::FormatDuration(store_retry), "more than 0");
   return faults.ToStatus();
@@ -44,6 +50,7 @@ class JobEngine::State {
                  running_,
                  [this](const std::string& name) { hub_.Changed(name); }},
         worker_(context_),
+        sweeper_(context_, [this] { AddWorker(); }),
         hub_([this](const std::string& name) { return Get(name); }) {}
 
   absl::Status Start() {
@@ -51,21 +58,19 @@ class JobEngine::State {
     const std::lock_guard lock(mutex_);
     if (!threads_.empty() || signal_.IsStopping())
       return absl::FailedPreconditionError("the engine was started before");
-    TRUEPOSE_ASSIGN_OR_RETURN(const std::vector<std::string> recovered,
-                              store_.Write([this](Transaction& transaction) {
-                                return RecoverRunning(transaction, options_.max_attempts);
-                              }));
+    TRUEPOSE_ASSIGN_OR_RETURN(const std::vector<std::string> recovered, Recover());
     for (const std::string& name : recovered) hub_.Changed(name);
     for (int i = 0; i < options_.workers; ++i) threads_.emplace_back([this] { worker_.Loop(); });
+    sweeping_ = std::thread([this] { sweeper_.Loop(); });
     return absl::OkStatus();
   }
 
   void Stop() {
     signal_.Stop();
-    const std::lock_guard lock(mutex_);
-    for (std::thread& thread : threads_) {
-      if (thread.joinable()) thread.join();
-    }
+    const std::lock_guard stop_lock(stop_mutex_);
+    // First the one that adds workers.
+    if (std::thread sweeping = Take(sweeping_); sweeping.joinable()) sweeping.join();
+    for (std::thread& thread : Take(threads_)) thread.join();
     hub_.Stop();
   }
 
@@ -82,9 +87,14 @@ class JobEngine::State {
   }
 
   absl::StatusOr<v1::CalibrationJob> Cancel(const std::string& name) {
-    TRUEPOSE_ASSIGN_OR_RETURN(
-        const v1::CalibrationJob job,
-        store_.Write([&](Transaction& transaction) { return RequestCancel(transaction, name); }));
+    context_.At("before_cancel");
+    TRUEPOSE_ASSIGN_OR_RETURN(const v1::CalibrationJob job,
+                              store_.Write([&](Transaction& transaction) {
+                                auto asked = RequestCancel(transaction, name);
+                                context_.At("cancel_written");
+                                return asked;
+                              }));
+    context_.At("after_cancel");
     // After the commit: a worker that began meanwhile finds the request in the store.
     if (const std::shared_ptr<RunningJob> running = running_.Find(name)) running->AskToEnd();
     hub_.Changed(name);
@@ -100,6 +110,29 @@ class JobEngine::State {
   }
 
  private:
+  absl::StatusOr<std::vector<std::string>> Recover() {
+    context_.At("before_recover");
+    TRUEPOSE_ASSIGN_OR_RETURN(std::vector<std::string> names,
+                              store_.Write([this](Transaction& transaction) {
+                                auto recovered = RecoverRunning(transaction, options_.max_attempts);
+                                context_.At("recover_written");
+                                return recovered;
+                              }));
+    context_.At("after_recover");
+    return names;
+  }
+
+  void AddWorker() {
+    const std::lock_guard lock(mutex_);
+    if (!signal_.IsStopping()) threads_.emplace_back([this] { worker_.Loop(); });
+  }
+
+  template <typename T>
+  T Take(T& member) {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(member, T());
+  }
+
   store::Store& store_;
   const Runner runner_;
   const EngineOptions options_;
@@ -107,9 +140,12 @@ class JobEngine::State {
   RunningJobs running_;
   const WorkerContext context_;
   Worker worker_;
+  Sweeper sweeper_;
   WatchHub hub_;
-  std::mutex mutex_;  // of threads_
+  std::mutex stop_mutex_;  // one Stop() at a time
+  std::mutex mutex_;       // of all below
   std::vector<std::thread> threads_;
+  std::thread sweeping_;
 };
 
 JobEngine::JobEngine(store::Store& store, Runner runner, EngineOptions options,

@@ -1,16 +1,23 @@
 // Runs calibration jobs on worker threads.
 //
-// A worker claims the oldest PENDING job (one commit: RUNNING, attempts + 1, a lease), loads its
+// A worker claims the PENDING job whose turn it is (the highest priority, then the order of
+// creation, one RUNNING job a robot) in one commit: RUNNING, attempts + 1, a lease. It loads the
 // frozen input, runs it and writes the end in one commit: calibration + SUCCEEDED, or FAILED, or
-// CANCELLED. Only the holder of the lease may end a job, so nothing runs to SUCCEEDED twice. Leases
-// are void at a restart: Start() puts every RUNNING job back to PENDING, or ends it when its
-// cancellation was asked for or it was begun too often. Progress lives in memory only. All
-// functions are safe from any thread.
+// CANCELLED. Only the holder of the lease may end a job, so nothing runs to SUCCEEDED twice.
+//
+// A lease is renewed by every call of the runner's hooks. A worker that calls none for `lease`
+// loses it: the job is put back, another thread takes the worker's place, and what the silent one
+// brings in the end changes nothing. Leases are void at a restart: Start() puts every RUNNING job
+// back to PENDING. Instead of back, a job goes to its end when its cancellation was asked for, its
+// deadline has passed, or it was begun too often. A job whose deadline passes is FAILED, whether it
+// waits, runs or ran in another process. Progress lives in memory only. All functions are safe from
+// any thread.
 #pragma once
 
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
@@ -23,14 +30,22 @@ namespace truepose::jobs {
 
 struct EngineOptions {
   int workers = 1;                              // jobs that run at once; 1 to 64
-  absl::Duration deadline = absl::Minutes(10);  // a job that takes longer is FAILED
-  int max_attempts = 3;  // a job begun so often without an end is FAILED at the next start
+  absl::Duration deadline = absl::Minutes(10);  // a run that takes longer is FAILED
+  int max_attempts = 3;                         // a job begun so often without an end is FAILED
+  // Silence after which a worker loses its job; above the longest time between two calls of the
+  // runner's hooks and the loading of the longest input.
+  absl::Duration lease = absl::Minutes(2);
+  absl::Duration sweep = absl::Milliseconds(500);  // between looks for deadlines and lost leases
   absl::Duration store_retry =
       absl::Seconds(1);  // pause before a refused write (full disk) is tried again
 
   // Told what no caller hears of, such as a result that can't be stored yet; from any thread. May
   // be empty.
   std::function<void(const std::string&)> on_warning;
+
+  // For tests, which end the process there: called at each place of failpoints.h that is passed,
+  // from any thread. May be empty.
+  std::function<void(std::string_view)> at_point;
 
   // Every fault at once, with the option's name as field.
   absl::Status Validate() const;

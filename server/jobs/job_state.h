@@ -2,10 +2,13 @@
 //
 //   PENDING -> RUNNING      a worker claims it
 //   PENDING -> CANCELLED    cancelled before it ran
+//   PENDING -> FAILED       its deadline passed before it ran
 //   RUNNING -> SUCCEEDED    in the same commit as its calibration
-//   RUNNING -> FAILED       the run failed, took too long, or was begun too often
+//   RUNNING -> FAILED       the run failed, took too long or beyond its deadline, or was begun too
+//                           often
 //   RUNNING -> CANCELLED    cancelled while it ran
-//   RUNNING -> PENDING      the lease is lost: the process ended or stopped
+//   RUNNING -> PENDING      the lease is lost: the process ended or stopped, or the worker gave no
+//                           sign of life
 //
 // A state is visible after its commit, never before.
 #pragma once

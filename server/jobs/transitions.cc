@@ -49,10 +49,23 @@ absl::Status PutBack(Transaction& transaction, v1::CalibrationJob& job) {
   return ChangeState(transaction, job, v1::PENDING, kNobody);
 }
 
+bool IsLate(const Transaction& transaction, const v1::CalibrationJob& job) {
+  return store::DeadlineOf(job) <= transaction.now();
+}
+
+absl::Status FailAsLate(Transaction& transaction, v1::CalibrationJob& job) {
+  const bool began = job.state() == v1::RUNNING;
+  return Fail(transaction, job,
+              absl::DeadlineExceededError(absl::StrCat(
+                  "its deadline ", absl::FormatTime(store::DeadlineOf(job), absl::UTCTimeZone()),
+                  " passed before it ", began ? "ended" : "began")));
+}
+
 absl::Status Apply(Transaction& transaction, v1::CalibrationJob& job, const Outcome& outcome) {
   if (job.cancel_requested()) return ChangeState(transaction, job, v1::CANCELLED, kNobody);
   switch (outcome.kind) {
     case Outcome::Kind::kResult:
+      if (IsLate(transaction, job)) return FailAsLate(transaction, job);
       return Succeed(transaction, job, outcome.calibration);
     case Outcome::Kind::kCancelled:
       return ChangeState(transaction, job, v1::CANCELLED, kNobody);
@@ -65,21 +78,30 @@ absl::Status Apply(Transaction& transaction, v1::CalibrationJob& job, const Outc
   return Fail(transaction, job, outcome.error);
 }
 
-absl::Status Recover(Transaction& transaction, v1::CalibrationJob& job, int max_attempts) {
+absl::Status EndLease(Transaction& transaction, v1::CalibrationJob& job, int max_attempts,
+                      std::string_view reason) {
   if (job.cancel_requested()) return ChangeState(transaction, job, v1::CANCELLED, kNobody);
+  if (IsLate(transaction, job)) return FailAsLate(transaction, job);
   if (job.attempts() < max_attempts) return PutBack(transaction, job);
-  return Fail(transaction, job,
-              absl::AbortedError(absl::StrCat(
-                  "begun ", job.attempts(),
-                  " times, and each time the server ended before the job did; create a "
-                  "new job to try again")));
+  return Fail(
+      transaction, job,
+      absl::AbortedError(absl::StrCat("begun ", job.attempts(), " times, and the last time ",
+                                      std::string(reason), "; create a new job to try again")));
+}
+
+// The claimed job, if the lease is still the claim's.
+absl::StatusOr<std::optional<v1::CalibrationJob>> HeldJob(Snapshot& snapshot, const Claim& claim) {
+  TRUEPOSE_ASSIGN_OR_RETURN(v1::CalibrationJob job, store::GetJob(snapshot, claim.job.name()));
+  TRUEPOSE_ASSIGN_OR_RETURN(const store::Lease lease, store::GetLease(snapshot, claim.job.name()));
+  if (job.state() != v1::RUNNING || lease != claim.lease) return std::nullopt;
+  return std::optional(std::move(job));
 }
 
 }  // namespace
 
-absl::StatusOr<std::optional<Claim>> ClaimOldest(Transaction& transaction) {
+absl::StatusOr<std::optional<Claim>> ClaimNext(Transaction& transaction) {
   TRUEPOSE_ASSIGN_OR_RETURN(const std::optional<std::string> name,
-                            store::OldestInState(transaction, v1::PENDING));
+                            store::NextJob(transaction, transaction.now()));
   if (!name.has_value()) return std::optional<Claim>();
   Claim claim;
   TRUEPOSE_ASSIGN_OR_RETURN(claim.job, store::GetJob(transaction, *name));
@@ -91,12 +113,30 @@ absl::StatusOr<std::optional<Claim>> ClaimOldest(Transaction& transaction) {
 }
 
 absl::StatusOr<bool> EndJob(Transaction& transaction, const Claim& claim, const Outcome& outcome) {
-  TRUEPOSE_ASSIGN_OR_RETURN(v1::CalibrationJob job, store::GetJob(transaction, claim.job.name()));
-  TRUEPOSE_ASSIGN_OR_RETURN(const store::Lease lease,
-                            store::GetLease(transaction, claim.job.name()));
-  if (job.state() != v1::RUNNING || lease != claim.lease) return false;
-  TRUEPOSE_RETURN_IF_ERROR(Apply(transaction, job, outcome));
+  TRUEPOSE_ASSIGN_OR_RETURN(auto job, HeldJob(transaction, claim));
+  if (!job.has_value()) return false;
+  TRUEPOSE_RETURN_IF_ERROR(Apply(transaction, *job, outcome));
   return true;
+}
+
+absl::StatusOr<bool> TakeBack(Transaction& transaction, const Claim& claim, int max_attempts,
+                              std::string_view reason) {
+  TRUEPOSE_ASSIGN_OR_RETURN(auto job, HeldJob(transaction, claim));
+  if (!job.has_value()) return false;
+  TRUEPOSE_RETURN_IF_ERROR(EndLease(transaction, *job, max_attempts, reason));
+  return true;
+}
+
+absl::StatusOr<std::vector<std::string>> FailLate(Transaction& transaction) {
+  // So many that one commit isn't long; the next look takes the rest.
+  constexpr int kAtOnce = 100;
+  TRUEPOSE_ASSIGN_OR_RETURN(const std::vector<std::string> names,
+                            store::LatePendingJobs(transaction, transaction.now(), kAtOnce));
+  for (const std::string& name : names) {
+    TRUEPOSE_ASSIGN_OR_RETURN(v1::CalibrationJob job, store::GetJob(transaction, name));
+    TRUEPOSE_RETURN_IF_ERROR(FailAsLate(transaction, job));
+  }
+  return names;
 }
 
 absl::StatusOr<v1::CalibrationJob> RequestCancel(Transaction& transaction, std::string_view name) {
@@ -124,7 +164,8 @@ absl::StatusOr<std::vector<std::string>> RecoverRunning(Transaction& transaction
                             store::JobsInState(transaction, v1::RUNNING));
   for (const std::string& name : names) {
     TRUEPOSE_ASSIGN_OR_RETURN(v1::CalibrationJob job, store::GetJob(transaction, name));
-    TRUEPOSE_RETURN_IF_ERROR(Recover(transaction, job, max_attempts));
+    TRUEPOSE_RETURN_IF_ERROR(
+        EndLease(transaction, job, max_attempts, "the server ended before the job did"));
   }
   return names;
 }

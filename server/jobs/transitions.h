@@ -34,10 +34,12 @@ struct Outcome {
   absl::Status error;
 };
 
-// PENDING -> RUNNING of the oldest one; nothing when none waits.
-absl::StatusOr<std::optional<Claim>> ClaimOldest(store::Transaction& transaction);
+// PENDING -> RUNNING of the one whose turn it is (store::NextJob); nothing when none may run.
+absl::StatusOr<std::optional<Claim>> ClaimNext(store::Transaction& transaction);
 
-// RUNNING -> what the outcome says, or CANCELLED when that was asked for before.
+// RUNNING -> what the outcome says; CANCELLED when that was asked for before; FAILED instead of
+// SUCCEEDED when the job's deadline has passed. A result whose content the robot has already is not
+// stored again (store::InsertCalibration), the job is SUCCEEDED with the one there is.
 // @returns false, and changes nothing, when the claim's lease is lost.
 absl::StatusOr<bool> EndJob(store::Transaction& transaction, const Claim& claim,
                             const Outcome& outcome);
@@ -46,9 +48,18 @@ absl::StatusOr<bool> EndJob(store::Transaction& transaction, const Claim& claim,
 absl::StatusOr<v1::CalibrationJob> RequestCancel(store::Transaction& transaction,
                                                  std::string_view name);
 
-// Ends every lease: RUNNING becomes CANCELLED when that was asked for, FAILED when the job was
-// begun `max_attempts` times, PENDING otherwise. For the start of a process, when nobody can be
-// running them. @returns their names.
+// Ends the claim's lease without its worker, for the reason given: RUNNING becomes CANCELLED when
+// that was asked for, FAILED when its deadline has passed or the job was begun `max_attempts`
+// times, PENDING otherwise. @returns false, and changes nothing, when the lease is lost already.
+absl::StatusOr<bool> TakeBack(store::Transaction& transaction, const Claim& claim, int max_attempts,
+                              std::string_view reason);
+
+// PENDING -> FAILED of jobs whose deadline has passed, a hundred at once at most. @returns their
+// names.
+absl::StatusOr<std::vector<std::string>> FailLate(store::Transaction& transaction);
+
+// Ends every lease as TakeBack does. For the start of a process, when nobody can be running them.
+// @returns their names.
 absl::StatusOr<std::vector<std::string>> RecoverRunning(store::Transaction& transaction,
                                                         int max_attempts);
 

@@ -1,7 +1,8 @@
-// What a handler may use: the store and the job engine, never the transport.
+// What a handler may use: the store, the job engine and who calls; never the transport.
 #pragma once
 
 #include "server/jobs/engine.h"
+#include "server/services/caller.h"
 #include "server/store/store.h"
 
 namespace truepose::services {
@@ -9,6 +10,7 @@ namespace truepose::services {
 struct CallContext {
   store::Store& store;
   jobs::JobEngine& engine;
+  Caller caller = {};
 };
 
 }  // namespace truepose::services

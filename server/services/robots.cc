@@ -1,11 +1,19 @@
 #include "server/services/robots.h"
 
+#include <cmath>
 #include <string>
+#include <vector>
 
+#include "absl/strings/str_cat.h"
 #include "convert/run.h"
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
+#include "google/protobuf/util/message_differencer.h"
+#include "server/resource/field_mask.h"
 #include "server/services/closures.h"
+#include "server/services/live.h"
+#include "server/store/jobs.h"
+#include "server/store/message.h"
 #include "server/store/names.h"
 #include "server/store/robots.h"
 
@@ -14,15 +22,102 @@ namespace truepose::services {
 using store::Snapshot;
 using store::Transaction;
 
+namespace {
+
+// Only the server sets these, beside the standard fields.
+const std::vector<std::string>& OutputOnly() {
+  static const auto& fields =
+      *new std::vector<std::string>{"nominal_revision", "active_calibration"};
+  return fields;
+}
+
+void CheckLimit(double limit, const char* field, FaultList& faults) {
+  if (std::isfinite(limit) && limit >= 0.0) return;
+  faults.Add(absl::StrCat("robot.limits.", field), absl::StrCat(limit), "mm, 0 = none");
+}
+
+void CheckSettings(const v1::Robot& robot, FaultList& faults) {
+  CheckLimit(robot.limits().control_rms_mm(), "control_rms_mm", faults);
+  CheckLimit(robot.limits().change_mm(), "change_mm", faults);
+  CheckLimit(robot.limits().drift_rms_mm(), "drift_rms_mm", faults);
+  if (!v1::ReleasePolicy_IsValid(robot.release_policy())) {
+    faults.Add("robot.release_policy", absl::StrCat(static_cast<int>(robot.release_policy())),
+               "TWO_PERSON, ONE_PERSON or AUTOMATIC_WITHIN_LIMITS");
+  }
+}
+
+absl::StatusOr<v1::Robot> Update(Transaction& transaction, const v1::UpdateRobotRequest& request) {
+  TRUEPOSE_ASSIGN_OR_RETURN(v1::Robot robot,
+                            GetLiveRobot(transaction, request.robot().name(), "robot.name"));
+  TRUEPOSE_RETURN_IF_ERROR(CheckEtag(robot.etag(), request.robot().etag()));
+  const v1::Robot before = robot;
+  TRUEPOSE_RETURN_IF_ERROR(
+      resource::ApplyUpdate(request.robot(), request.update_mask(), OutputOnly(), robot));
+  FaultList faults;
+  CheckSettings(robot, faults);
+  TRUEPOSE_RETURN_IF_ERROR(faults.ToStatus());
+  if (google::protobuf::util::MessageDifferencer::Equals(before, robot)) return robot;
+  return store::PutRobot(transaction, robot);
+}
+
+absl::Status CheckNoJobs(Transaction& transaction, const std::string& robot) {
+  for (const v1::JobState state : {v1::PENDING, v1::RUNNING}) {
+    TRUEPOSE_ASSIGN_OR_RETURN(const auto names, store::JobsInState(transaction, state));
+    for (const std::string& name : names) {
+      TRUEPOSE_ASSIGN_OR_RETURN(const v1::CalibrationJob job, store::GetJob(transaction, name));
+      if (job.robot() != robot) continue;
+      return store::Refusal(absl::StatusCode::kFailedPrecondition, "name",
+                            absl::StrCat(robot, ", whose ", name, " has not ended"),
+                            "a robot without jobs that run or wait; cancel them first");
+    }
+  }
+  return absl::OkStatus();
+}
+
+absl::StatusOr<v1::Robot> SetDeleted(Transaction& transaction, const std::string& name,
+                                     const std::string& etag, bool deleted) {
+  TRUEPOSE_ASSIGN_OR_RETURN(v1::Robot robot, store::GetRobot(transaction, name));
+  TRUEPOSE_RETURN_IF_ERROR(CheckEtag(robot.etag(), etag));
+  if (robot.has_delete_time() == deleted) return robot;
+  if (deleted) TRUEPOSE_RETURN_IF_ERROR(CheckNoJobs(transaction, name));
+  robot.clear_delete_time();
+  if (deleted) *robot.mutable_delete_time() = store::ToTimestamp(transaction.now());
+  return store::PutRobot(transaction, robot);
+}
+
+}  // namespace
+
 absl::StatusOr<v1::Robot> CreateRobot(const CallContext& call,
                                       const v1::CreateRobotRequest& request) {
   FaultList faults;
   faults.AddAll(store::CheckRobotId(request.robot_id(), "robot_id"));
   faults.AddAll(convert::ValidateNominal(request.nominal()), "nominal.");
+  CheckSettings(request.robot(), faults);
   TRUEPOSE_RETURN_IF_ERROR(faults.ToStatus());
   const std::string digest = convert::NominalDigest(request.nominal());
-  return WriteUnless(request.validate_only(), call.store, [&](Transaction& transaction) {
-    return store::CreateRobot(transaction, request.robot_id(), request.nominal(), digest);
+  return WriteOnce(call, request, [&](Transaction& transaction) {
+    return store::CreateRobot(transaction, request.robot_id(), request.nominal(), digest,
+                              request.robot());
+  });
+}
+
+absl::StatusOr<v1::Robot> UpdateRobot(const CallContext& call,
+                                      const v1::UpdateRobotRequest& request) {
+  return WriteOnce(call, request,
+                   [&](Transaction& transaction) { return Update(transaction, request); });
+}
+
+absl::StatusOr<v1::Robot> DeleteRobot(const CallContext& call,
+                                      const v1::DeleteRobotRequest& request) {
+  return WriteOnce(call, request, [&](Transaction& transaction) {
+    return SetDeleted(transaction, request.name(), request.etag(), true);
+  });
+}
+
+absl::StatusOr<v1::Robot> UndeleteRobot(const CallContext& call,
+                                        const v1::UndeleteRobotRequest& request) {
+  return WriteOnce(call, request, [&](Transaction& transaction) {
+    return SetDeleted(transaction, request.name(), "", false);
   });
 }
 
@@ -33,8 +128,9 @@ absl::StatusOr<v1::Robot> GetRobot(const CallContext& call, const v1::GetRobotRe
 
 absl::StatusOr<v1::ListRobotsResponse> ListRobots(const CallContext& call,
                                                   const v1::ListRobotsRequest& request) {
+  TRUEPOSE_ASSIGN_OR_RETURN(const auto filter, FilterOf<v1::Robot>(request));
   TRUEPOSE_ASSIGN_OR_RETURN(auto page, call.store.Read([&](Snapshot& snapshot) {
-    return store::ListRobots(snapshot, PageOf(request));
+    return store::ListRobots(snapshot, PageOf(request), filter);
   }));
   return ToResponse(std::move(page), &v1::ListRobotsResponse::mutable_robots);
 }
@@ -46,7 +142,7 @@ absl::StatusOr<v1::NominalRevision> CreateNominalRevision(
   faults.AddAll(convert::ValidateNominal(request.nominal()), "nominal.");
   TRUEPOSE_RETURN_IF_ERROR(faults.ToStatus());
   const std::string digest = convert::NominalDigest(request.nominal());
-  return WriteUnless(request.validate_only(), call.store, [&](Transaction& transaction) {
+  return WriteOnce(call, request, [&](Transaction& transaction) {
     return store::AddNominalRevision(transaction, request.parent(), request.nominal(), digest);
   });
 }

@@ -14,6 +14,12 @@ namespace truepose::services {
 
 absl::StatusOr<v1::Robot> CreateRobot(const CallContext& call,
                                       const v1::CreateRobotRequest& request);
+absl::StatusOr<v1::Robot> UpdateRobot(const CallContext& call,
+                                      const v1::UpdateRobotRequest& request);
+absl::StatusOr<v1::Robot> DeleteRobot(const CallContext& call,
+                                      const v1::DeleteRobotRequest& request);
+absl::StatusOr<v1::Robot> UndeleteRobot(const CallContext& call,
+                                        const v1::UndeleteRobotRequest& request);
 absl::StatusOr<v1::Robot> GetRobot(const CallContext& call, const v1::GetRobotRequest& request);
 absl::StatusOr<v1::ListRobotsResponse> ListRobots(const CallContext& call,
                                                   const v1::ListRobotsRequest& request);

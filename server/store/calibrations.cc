@@ -1,6 +1,7 @@
 #include "server/store/calibrations.h"
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -30,18 +31,56 @@ absl::StatusOr<int64_t> NextNumber(Snapshot& snapshot, const std::string& robot_
       robot_id);
 }
 
-absl::Status Insert(Transaction& transaction, const NumberedName& name, Key job,
-                    v1::Calibration calibration) {
-  const v1::Calibration detail = TakeDetail(calibration);
-  const absl::Status status =
-      sql::Run(transaction.sql(),
-               "INSERT INTO calibrations (robot_id, number, job, message, detail) VALUES ($1, $2, "
-               "$3, $4, $5)",
-               name.robot_id, name.number, job, sql::BlobView{ToBlob(calibration)},
-               sql::BlobView{ToBlob(detail)});
-  if (!absl::IsAlreadyExists(status)) return status;
+// What must be equal to be stored once (calibrations.h): bytes that equal content has in common.
+std::string Content(v1::Calibration calibration) {
+  calibration.clear_name();
+  calibration.clear_job();
+  calibration.clear_created_by();
+  calibration.clear_create_time();
+  calibration.clear_provenance();
+  calibration.clear_state();
+  calibration.clear_release_steps();
+  calibration.clear_revision();
+  calibration.clear_etag();
+  return ToBlob(calibration);
+}
+
+absl::StatusOr<std::optional<v1::Calibration>> FindEqual(Snapshot& snapshot,
+                                                         const std::string& robot_id,
+                                                         const std::string& input_digest,
+                                                         const v1::Calibration& calibration) {
+  TRUEPOSE_ASSIGN_OR_RETURN(
+      auto rows, sql::Query(snapshot.sql(),
+                            "SELECT number FROM calibrations WHERE robot_id = $1 AND digest = $2 "
+                            "AND input_digest = $3 ORDER BY number",
+                            robot_id, calibration.digest(), input_digest));
+  const std::string content = Content(calibration);
+  for (;;) {
+    TRUEPOSE_ASSIGN_OR_RETURN(const bool found, rows->Step());
+    if (!found) return std::optional<v1::Calibration>();
+    TRUEPOSE_ASSIGN_OR_RETURN(v1::Calibration stored,
+                              GetCalibration(snapshot, CalibrationName(robot_id, rows->Int64(0))));
+    if (Content(stored) == content) return std::optional(std::move(stored));
+  }
+}
+
+absl::Status CheckNoCalibration(Snapshot& snapshot, Key job, const std::string& name) {
+  TRUEPOSE_ASSIGN_OR_RETURN(
+      const int64_t count,
+      sql::QueryInt64(snapshot.sql(), "SELECT COUNT(*) FROM calibrations WHERE job = $1", job));
+  if (count == 0) return absl::OkStatus();
   return Refusal(absl::StatusCode::kAlreadyExists, "job",
-                 absl::StrCat(calibration.job(), ", which has a calibration"), "a job without one");
+                 absl::StrCat(name, ", which has a calibration"), "a job without one");
+}
+
+absl::Status Insert(Transaction& transaction, const NumberedName& name, Key job,
+                    const std::string& input_digest, v1::Calibration calibration) {
+  const v1::Calibration detail = TakeDetail(calibration);
+  return sql::Run(transaction.sql(),
+                  "INSERT INTO calibrations (robot_id, number, job, digest, input_digest, message, "
+                  "detail) VALUES ($1, $2, $3, $4, $5, $6, $7)",
+                  name.robot_id, name.number, job, calibration.digest(), input_digest,
+                  sql::BlobView{ToBlob(calibration)}, sql::BlobView{ToBlob(detail)});
 }
 
 }  // namespace
@@ -51,13 +90,19 @@ absl::StatusOr<v1::Calibration> InsertCalibration(Transaction& transaction,
                                                   const v1::Calibration& calibration) {
   TRUEPOSE_ASSIGN_OR_RETURN(const Key key, JobKey(transaction, job.name(), "job"));
   TRUEPOSE_ASSIGN_OR_RETURN(const std::string robot_id, ParseRobotName(job.robot(), "robot"));
-  TRUEPOSE_ASSIGN_OR_RETURN(const int64_t number, NextNumber(transaction, robot_id));
+  TRUEPOSE_RETURN_IF_ERROR(CheckNoCalibration(transaction, key, job.name()));
   v1::Calibration stored = calibration;
+  *stored.mutable_options() = job.options();
+  TRUEPOSE_ASSIGN_OR_RETURN(std::optional<v1::Calibration> equal,
+                            FindEqual(transaction, robot_id, job.input_digest(), stored));
+  if (equal.has_value()) return *std::move(equal);
+  TRUEPOSE_ASSIGN_OR_RETURN(const int64_t number, NextNumber(transaction, robot_id));
   stored.set_name(CalibrationName(robot_id, number));
   stored.set_job(job.name());
-  *stored.mutable_options() = job.options();
+  stored.set_created_by(job.created_by());
   *stored.mutable_create_time() = ToTimestamp(transaction.now());
-  TRUEPOSE_RETURN_IF_ERROR(Insert(transaction, {robot_id, number}, key, stored));
+  TRUEPOSE_RETURN_IF_ERROR(
+      Insert(transaction, {robot_id, number}, key, job.input_digest(), stored));
   return stored;
 }
 

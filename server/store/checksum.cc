@@ -26,4 +26,12 @@ std::string RandomHex128() {
   return hex;
 }
 
+std::string NewUuid() {
+  std::string hex = RandomHex128();
+  hex[12] = '4';
+  hex[16] = "89ab"[hex[16] % 4];
+  return absl::StrCat(hex.substr(0, 8), "-", hex.substr(8, 4), "-", hex.substr(12, 4), "-",
+                      hex.substr(16, 4), "-", hex.substr(20));
+}
+
 }  // namespace truepose::store

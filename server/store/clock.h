@@ -8,7 +8,8 @@ namespace truepose::store {
 class Clock {
  public:
   virtual ~Clock() = default;
-  // Wall time: written into resources, never compared to decide anything.
+  // Wall time: written into resources. Decides nothing but whether a time that somebody gave as a
+  // date (the deadline of a job) has come.
   virtual absl::Time Now() const = 0;
   // Time since an arbitrary start; never jumps. For leases and deadlines.
   virtual absl::Duration Monotonic() const = 0;

@@ -61,6 +61,45 @@ absl::Status CheckNominal(Snapshot& snapshot, const v1::CalibrationJob& job) {
                  absl::StrCat("a revision of ", job.robot()));
 }
 
+// A recalibration request is named below its robot; whether there is one its own repository knows.
+absl::Status CheckRecalibrationRequest(const v1::CalibrationJob& job) {
+  const std::string parent = absl::StrCat(job.robot(), "/recalibrationRequests/");
+  const std::string& name = job.recalibration_request();
+  if (name.empty() || (name.starts_with(parent) && name.size() > parent.size()))
+    return absl::OkStatus();
+  return FaultStatus("recalibration_request", name, absl::StrCat(parent, "{request}"));
+}
+
+// The form of what says when the job runs.
+absl::Status CheckOrder(const v1::CalibrationJob& job) {
+  FaultList faults;
+  if (job.priority() < kLowestPriority || job.priority() > kHighestPriority)
+    faults.Add("priority", absl::StrCat(job.priority()),
+               absl::StrCat(kLowestPriority, " to ", kHighestPriority));
+  // What google.protobuf.Timestamp allows, from 1970 on.
+  constexpr int64_t kYear10000 = 253'402'300'800;
+  const auto& deadline = job.deadline();
+  if (deadline.seconds() < 0 || deadline.seconds() >= kYear10000 || deadline.nanos() < 0 ||
+      deadline.nanos() > 999'999'999) {
+    faults.Add("deadline", absl::StrCat(deadline.seconds(), " s and ", deadline.nanos(), " ns"),
+               "a time between 1970 and 9999");
+  }
+  faults.AddAll(CheckRecalibrationRequest(job));
+  return faults.ToStatus();
+}
+
+absl::StatusOr<v1::CalibrationInput> LoadNominal(Snapshot& snapshot,
+                                                 const v1::CalibrationJob& job) {
+  v1::CalibrationInput input;
+  TRUEPOSE_ASSIGN_OR_RETURN(v1::NominalRevision revision,
+                            GetNominalRevision(snapshot, job.nominal_revision()));
+  input.set_robot(job.robot());
+  input.set_nominal_revision(revision.name());
+  *input.mutable_nominal() = std::move(*revision.mutable_nominal());
+  *input.mutable_options() = job.options();
+  return input;
+}
+
 absl::StatusOr<v1::SessionInput> LoadSession(Snapshot& snapshot, const std::string& name,
                                              const std::string& digest) {
   v1::SessionInput input;
@@ -82,6 +121,7 @@ absl::StatusOr<std::vector<FrozenSession>> CheckJobInput(Snapshot& snapshot,
   Faults faults;
   faults.Add(GetRobot(snapshot, job.robot()).status(), "robot");
   faults.Add(CheckNominal(snapshot, job), "nominal_revision");
+  faults.Add(CheckOrder(job), "priority");
   if (job.sessions().empty())
     faults.Add(FaultStatus("sessions", "none", "at least one"), "sessions");
   std::vector<FrozenSession> sessions;
@@ -92,6 +132,24 @@ absl::StatusOr<std::vector<FrozenSession>> CheckJobInput(Snapshot& snapshot,
   }
   TRUEPOSE_RETURN_IF_ERROR(faults.ToStatus());
   return sessions;
+}
+
+absl::Status CheckDeadline(const v1::CalibrationJob& job, absl::Time now) {
+  const absl::Time deadline = DeadlineOf(job);
+  if (deadline > now) return absl::OkStatus();
+  return Refusal(absl::StatusCode::kFailedPrecondition, "deadline", absl::FormatTime(deadline),
+                 absl::StrCat("after ", absl::FormatTime(now)));
+}
+
+absl::StatusOr<v1::CalibrationInput> LoadInputNow(Snapshot& snapshot,
+                                                  const v1::CalibrationJob& job) {
+  TRUEPOSE_ASSIGN_OR_RETURN(v1::CalibrationInput input, LoadNominal(snapshot, job));
+  for (const std::string& name : job.sessions()) {
+    TRUEPOSE_ASSIGN_OR_RETURN(const Key key, SessionKey(snapshot, name));
+    TRUEPOSE_ASSIGN_OR_RETURN(const v1::Session session, ReadSession(snapshot, key));
+    TRUEPOSE_ASSIGN_OR_RETURN(*input.add_sessions(), LoadSession(snapshot, name, session.digest()));
+  }
+  return input;
 }
 
 absl::Status FreezeSessions(Transaction& transaction, Key job,
@@ -107,14 +165,8 @@ absl::Status FreezeSessions(Transaction& transaction, Key job,
 
 absl::StatusOr<v1::CalibrationInput> LoadJobInput(Snapshot& snapshot,
                                                   const v1::CalibrationJob& job) {
-  v1::CalibrationInput input;
-  TRUEPOSE_ASSIGN_OR_RETURN(v1::NominalRevision revision,
-                            GetNominalRevision(snapshot, job.nominal_revision()));
+  TRUEPOSE_ASSIGN_OR_RETURN(v1::CalibrationInput input, LoadNominal(snapshot, job));
   TRUEPOSE_ASSIGN_OR_RETURN(const Key key, JobKey(snapshot, job.name()));
-  input.set_robot(job.robot());
-  input.set_nominal_revision(revision.name());
-  *input.mutable_nominal() = std::move(*revision.mutable_nominal());
-  *input.mutable_options() = job.options();
   TRUEPOSE_ASSIGN_OR_RETURN(auto rows,
                             sql::Query(snapshot.sql(),
                                        "SELECT sessions.id, job_sessions.digest FROM job_sessions "

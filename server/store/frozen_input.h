@@ -6,6 +6,7 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "absl/time/time.h"
 #include "server/store/keys.h"
 #include "server/store/transaction.h"
 #include "truepose/v1/calibration.pb.h"
@@ -21,6 +22,13 @@ struct FrozenSession {
 // @returns the faults that store::CreateJob names, all of them at once.
 absl::StatusOr<std::vector<FrozenSession>> CheckJobInput(Snapshot& snapshot,
                                                          const v1::CalibrationJob& job);
+
+// kFailedPrecondition with a fault of `deadline` when it is `now` or earlier.
+absl::Status CheckDeadline(const v1::CalibrationJob& job, absl::Time now);
+
+// Nominal, options and sessions with their readings as they are now.
+absl::StatusOr<v1::CalibrationInput> LoadInputNow(Snapshot& snapshot,
+                                                  const v1::CalibrationJob& job);
 
 absl::Status FreezeSessions(Transaction& transaction, Key job,
                             const std::vector<FrozenSession>& sessions);

@@ -9,20 +9,25 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "absl/time/time.h"
 #include "server/store/page.h"
 #include "server/store/transaction.h"
 #include "truepose/v1/calibration.pb.h"
 
 namespace truepose::store {
 
+inline constexpr int kLowestPriority = -100, kHighestPriority = 100;
+
 // Stores a PENDING job and freezes its input in the same transaction: nominal revision, session
 // names with their digests, options and input digest. Of `job` are used: robot, sessions, options,
-// nominal_revision, input_digest. A repeat with the same robot and input digest returns the job as
-// it is now; wake the engine after the commit.
-// @returns kInvalidArgument for names or no session; kNotFound for the robot, revision or a
-// session; all faults at once with
-//   kFailedPrecondition for sessions that are not sealed or of another robot; kAlreadyExists for a
-//   job of other input.
+// nominal_revision, input_digest, priority, deadline (to the microsecond), created_by,
+// created_by_machine, recalibration_request. A repeat with the same robot, input digest, priority,
+// deadline and recalibration request returns the job as it is now, whoever repeats it; wake the
+// engine after the commit.
+// @returns kInvalidArgument for names, no session, a priority out of range or a deadline that isn't
+// a time; kNotFound for the robot, revision or a session; all faults at once with
+//   kFailedPrecondition for sessions that are not sealed or of another robot, and for a deadline
+//   that has passed; kAlreadyExists for a job of other content.
 absl::StatusOr<v1::CalibrationJob> CreateJob(Transaction& transaction, std::string_view job_id,
                                              const v1::CalibrationJob& job);
 absl::StatusOr<v1::CalibrationJob> GetJob(Snapshot& snapshot, std::string_view name);
@@ -35,14 +40,28 @@ absl::StatusOr<Page<v1::CalibrationJob>> ListJobs(Snapshot& snapshot, std::strin
 absl::StatusOr<v1::CalibrationInput> LoadJobInput(Snapshot& snapshot,
                                                   const v1::CalibrationJob& job);
 
+// What a job would read if CreateJob stored it now; nothing is stored. @returns CreateJob's faults.
+absl::StatusOr<v1::CalibrationInput> PreviewJobInput(Snapshot& snapshot, std::string_view job_id,
+                                                     const v1::CalibrationJob& job);
+
 // A worker's right to end a job: the revision at which it was claimed; 0 = nobody's.
 using Lease = int64_t;
 
-// Writes the job's state, its revision and its lease. @returns kNotFound.
+// Writes the job's state, its revision, its etag and its lease. Priority and deadline stay as they
+// were created. @returns kNotFound.
 absl::Status UpdateJob(Transaction& transaction, v1::CalibrationJob& job, Lease lease);
 absl::StatusOr<Lease> GetLease(Snapshot& snapshot, std::string_view name);
 // Names in the order of creation.
 absl::StatusOr<std::vector<std::string>> JobsInState(Snapshot& snapshot, v1::JobState state);
-absl::StatusOr<std::optional<std::string>> OldestInState(Snapshot& snapshot, v1::JobState state);
+// The PENDING job whose turn it is: of the robots without a RUNNING job, the one with the highest
+// priority, of equal ones the one that was created first. Passes over jobs whose deadline is `now`
+// or earlier.
+absl::StatusOr<std::optional<std::string>> NextJob(Snapshot& snapshot, absl::Time now);
+
+// PENDING jobs whose deadline is `now` or earlier, at most `limit`, the earliest deadline first.
+absl::StatusOr<std::vector<std::string>> LatePendingJobs(Snapshot& snapshot, absl::Time now,
+                                                         int limit);
+// absl::InfiniteFuture() for a job without one.
+absl::Time DeadlineOf(const v1::CalibrationJob& job);
 
 }  // namespace truepose::store

@@ -6,6 +6,8 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/base/status_macros.h"
+#include "server/store/checksum.h"
+#include "server/store/events.h"
 #include "server/store/list.h"
 #include "server/store/message.h"
 #include "server/store/names.h"
@@ -50,18 +52,34 @@ absl::StatusOr<v1::NominalRevision> InsertNominal(Transaction& transaction,
 // The robot's own state, without the nominal, which stands in its own table.
 absl::Status StampRobot(Transaction& transaction, const std::string& robot_id, v1::Robot robot) {
   robot.clear_nominal_revision();
+  *robot.mutable_update_time() = ToTimestamp(transaction.now());
   robot.set_revision(transaction.revision());
   robot.set_etag(ToEtag(transaction.revision()));
   return sql::Run(transaction.sql(),
-                  "INSERT INTO robots (id, message) VALUES ($1, $2) "
-                  "ON CONFLICT (id) DO UPDATE SET message = excluded.message",
-                  robot_id, sql::BlobView{ToBlob(robot)});
+                  "INSERT INTO robots (id, deleted, message) VALUES ($1, $2, $3) ON CONFLICT (id) "
+                  "DO UPDATE SET deleted = excluded.deleted, message = excluded.message",
+                  robot_id, robot.has_delete_time() ? 1 : 0, sql::BlobView{ToBlob(robot)});
+}
+
+// Once state and nominal are both stored.
+absl::StatusOr<v1::Robot> RecordRobot(Transaction& transaction, const std::string& robot_id) {
+  TRUEPOSE_ASSIGN_OR_RETURN(v1::Robot robot, GetRobot(transaction, RobotName(robot_id)));
+  TRUEPOSE_RETURN_IF_ERROR(RecordEvent(transaction,
+                                       {.kind = v1::KIND_ROBOT,
+                                        .robot_id = robot_id,
+                                        .name = robot.name(),
+                                        .deleted = robot.has_delete_time()},
+                                       robot));
+  return robot;
 }
 
 absl::Status InsertRobot(Transaction& transaction, const std::string& robot_id,
-                         const v1::Nominal& nominal, std::string_view digest) {
+                         const v1::Robot& settings, const v1::Nominal& nominal,
+                         std::string_view digest) {
   v1::Robot robot;
   robot.set_name(RobotName(robot_id));
+  robot.set_uid(NewUuid());
+  CopyRobotSettings(settings, robot);
   *robot.mutable_create_time() = ToTimestamp(transaction.now());
   TRUEPOSE_RETURN_IF_ERROR(StampRobot(transaction, robot_id, robot));
   return InsertNominal(transaction, robot_id, 1, nominal, digest).status();
@@ -69,19 +87,29 @@ absl::Status InsertRobot(Transaction& transaction, const std::string& robot_id,
 
 absl::Status CheckSameContent(Transaction& transaction, const v1::Robot& robot,
                               const std::string& robot_id, std::string_view digest) {
-  if (robot.nominal_revision().digest() == digest) return absl::OkStatus();
+  const bool deleted = robot.has_delete_time();
+  if (robot.nominal_revision().digest() == digest && !deleted) return absl::OkStatus();
   TRUEPOSE_ASSIGN_OR_RETURN(const v1::NominalRevision first,
                             GetNominalRevision(transaction, NominalName(robot_id, 1)));
-  if (first.digest() == digest) return absl::OkStatus();
-  return Refusal(absl::StatusCode::kAlreadyExists, "robot_id",
-                 absl::StrCat(robot.name(), " with other content"),
-                 "a new id, or a nominal revision of that robot");
+  if (first.digest() == digest && !deleted) return absl::OkStatus();
+  return Refusal(
+      absl::StatusCode::kAlreadyExists, "robot_id",
+      absl::StrCat(robot.name(), deleted ? ", which is deleted" : " with other content"),
+      deleted ? "a new id, or undelete" : "a new id, or a nominal revision of that robot");
 }
 
 }  // namespace
 
+void CopyRobotSettings(const v1::Robot& from, v1::Robot& robot) {
+  robot.set_display_name(from.display_name());
+  robot.set_release_policy(from.release_policy());
+  robot.clear_limits();
+  if (from.has_limits()) *robot.mutable_limits() = from.limits();
+}
+
 absl::StatusOr<v1::Robot> CreateRobot(Transaction& transaction, std::string_view robot_id,
-                                      const v1::Nominal& nominal, std::string_view digest) {
+                                      const v1::Nominal& nominal, std::string_view digest,
+                                      const v1::Robot& settings) {
   TRUEPOSE_RETURN_IF_ERROR(CheckRobotId(robot_id, "robot_id"));
   const std::string id(robot_id);
   const absl::StatusOr<v1::Robot> stored = GetRobot(transaction, RobotName(id));
@@ -90,8 +118,14 @@ absl::StatusOr<v1::Robot> CreateRobot(Transaction& transaction, std::string_view
     return stored;
   }
   if (!absl::IsNotFound(stored.status())) return stored.status();
-  TRUEPOSE_RETURN_IF_ERROR(InsertRobot(transaction, id, nominal, digest));
-  return GetRobot(transaction, RobotName(id));
+  TRUEPOSE_RETURN_IF_ERROR(InsertRobot(transaction, id, settings, nominal, digest));
+  return RecordRobot(transaction, id);
+}
+
+absl::StatusOr<v1::Robot> PutRobot(Transaction& transaction, const v1::Robot& robot) {
+  TRUEPOSE_ASSIGN_OR_RETURN(const std::string id, ParseRobotName(robot.name(), "robot.name"));
+  TRUEPOSE_RETURN_IF_ERROR(StampRobot(transaction, id, robot));
+  return RecordRobot(transaction, id);
 }
 
 absl::StatusOr<v1::NominalRevision> AddNominalRevision(Transaction& transaction,
@@ -103,7 +137,11 @@ absl::StatusOr<v1::NominalRevision> AddNominalRevision(Transaction& transaction,
   if (latest.digest() == digest) return latest;
   TRUEPOSE_ASSIGN_OR_RETURN(const NumberedName name, ParseNominalName(latest.name()));
   TRUEPOSE_RETURN_IF_ERROR(StampRobot(transaction, name.robot_id, robot));
-  return InsertNominal(transaction, name.robot_id, name.number + 1, nominal, digest);
+  TRUEPOSE_ASSIGN_OR_RETURN(
+      v1::NominalRevision revision,
+      InsertNominal(transaction, name.robot_id, name.number + 1, nominal, digest));
+  TRUEPOSE_RETURN_IF_ERROR(RecordRobot(transaction, name.robot_id).status());
+  return revision;
 }
 
 absl::StatusOr<v1::Robot> GetRobot(Snapshot& snapshot, std::string_view name) {
@@ -127,15 +165,17 @@ absl::StatusOr<v1::NominalRevision> GetNominalRevision(Snapshot& snapshot, std::
   return ReadMessage<v1::NominalRevision>(*row, 0);
 }
 
-absl::StatusOr<Page<v1::Robot>> ListRobots(Snapshot& snapshot, const PageRequest& request) {
-  const ListId id{"robots", ""};
+absl::StatusOr<Page<v1::Robot>> ListRobots(Snapshot& snapshot, const PageRequest& request,
+                                           const ListFilter<v1::Robot>& filter) {
+  const ListId id{"robots", filter.Key()};
   TRUEPOSE_ASSIGN_OR_RETURN(const PageStart start, CheckPage(id, request));
-  TRUEPOSE_ASSIGN_OR_RETURN(
-      auto rows, sql::Query(snapshot.sql(),
-                            "SELECT id, message FROM robots WHERE id > $1 ORDER BY id LIMIT $2",
-                            start.after, start.size + 1));
-  return ReadPage<v1::Robot>(
-      id, start.size, *rows, [&](const sql::Statement& row) -> absl::StatusOr<v1::Robot> {
+  TRUEPOSE_ASSIGN_OR_RETURN(auto rows,
+                            sql::Query(snapshot.sql(),
+                                       "SELECT id, message FROM robots WHERE id > $1 AND "
+                                       "deleted <= $2 ORDER BY id",
+                                       start.after, filter.show_deleted ? 1 : 0));
+  return ReadFilteredPage<v1::Robot>(
+      id, start.size, *rows, filter, [&](const sql::Statement& row) -> absl::StatusOr<v1::Robot> {
         TRUEPOSE_ASSIGN_OR_RETURN(v1::Robot robot, ReadMessage<v1::Robot>(row, 1));
         return Complete(snapshot, row.Text(0), std::move(robot));
       });

@@ -1,5 +1,6 @@
 #include "server/store/store.h"
 
+#include <mutex>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -95,6 +96,13 @@ struct Store::Parts {
   std::unique_ptr<Writer> writer;
   // nullptr in memory, where all share the writer's connection.
   std::unique_ptr<ReaderPool> readers;
+  std::mutex told_mutex;
+  std::function<void()> told;
+
+  void TellCommit() {
+    const std::lock_guard lock(told_mutex);
+    if (told) told();
+  }
 };
 
 namespace {
@@ -137,10 +145,18 @@ Store::~Store() = default;
 
 absl::Status Store::RunWrite(std::function<absl::Status(Transaction&)> closure) {
   if (in_closure) return NestedError();
-  return parts_->writer->Write([closure = std::move(closure)](Transaction& transaction) {
-    const ClosureScope scope;
-    return closure(transaction);
-  });
+  const absl::Status status =
+      parts_->writer->Write([closure = std::move(closure)](Transaction& transaction) {
+        const ClosureScope scope;
+        return closure(transaction);
+      });
+  if (status.ok()) parts_->TellCommit();
+  return status;
+}
+
+void Store::OnCommit(std::function<void()> told) {
+  const std::lock_guard lock(parts_->told_mutex);
+  parts_->told = std::move(told);
 }
 
 void Store::RunWriteAsync(std::function<absl::Status(Transaction&)> closure,

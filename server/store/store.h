@@ -55,7 +55,7 @@ class Store {
 
   // The same without waiting: `done` gets the result once, after the commit, in another thread (in
   // this one when the store is closing). It must be brief and must not call Write. Results come in
-  // the order of the calls.
+  // the order of the calls. For closures that publish no event: OnCommit isn't told of them.
   template <typename Closure, typename Done>
   void WriteAsync(Closure closure, Done done) {
     using Result = std::invoke_result_t<Closure&, Transaction&>;
@@ -63,7 +63,7 @@ class Store {
     RunWriteAsync(
         [closure = std::move(closure), result](Transaction& transaction) mutable {
           *result = closure(transaction);
-          return result->status();
+          return StatusOf(*result);
         },
         [result, done = std::move(done)](const absl::Status& status) mutable {
           if (!status.ok()) return done(Result(status));
@@ -84,6 +84,9 @@ class Store {
   const std::string& epoch() const;
   // Revision of the last commit.
   absl::StatusOr<int64_t> Revision();
+  // `told` is called after each Write that has committed, from the writing thread; it must be
+  // quick. One at most: the next replaces it, {} ends it; no call runs or begins after that.
+  void OnCommit(std::function<void()> told);
   const Clock& clock() const;
 
  private:
@@ -94,6 +97,12 @@ class Store {
   void RunWriteAsync(std::function<absl::Status(Transaction&)> closure,
                      std::function<void(const absl::Status&)> done);
   absl::Status RunRead(const std::function<absl::Status(Snapshot&)>& closure);
+
+  static const absl::Status& StatusOf(const absl::Status& status) { return status; }
+  template <typename T>
+  static const absl::Status& StatusOf(const absl::StatusOr<T>& result) {
+    return result.status();
+  }
 
   // Lets one entry point serve closures with and without a value.
   template <typename Result, typename Access, typename Closure, typename Run>

@@ -17,6 +17,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::UnorderedElementsAre;
 
 v1::Calibration MustRun(const v1::CalibrationInput& input) {
@@ -106,6 +107,18 @@ TEST(Options, ModelsAndEffectsGoAllTheWay) {
     EXPECT_EQ(response->targets(0).fault(), "");
     EXPECT_LT(response->targets(0).residual_position_mm(), 1e-6);
   }
+}
+
+// Would catch rows without a temperature that pass for rows at the session's mean unsaid, and a
+// warning to those who did not ask for the effect.
+TEST(Options, MissingTemperaturesAreSaid) {
+  v1::CalibrationInput input = SampleInput(81);
+  auto* rows = input.mutable_sessions(0)->mutable_readings();
+  for (int i = 3; i < rows->size(); ++i) rows->Mutable(i)->set_temperature_c(20 + i % 7);
+  const auto warning = HasSubstr("3 rows have no temperature");
+  EXPECT_THAT(MustRun(input).report().warnings(), Not(Contains(warning)));
+  input.mutable_options()->set_effects("temperature");
+  EXPECT_THAT(MustRun(input).report().warnings(), Contains(warning));
 }
 
 // A calibration of another model or with an effect that this program does not know is refused.

@@ -53,6 +53,30 @@ TEST(MeasuredSockets, EvenOdd) {
   ExpectApplied(report);
 }
 
+// Each of the six places shows all of its base but a turn about the line of its two sockets: rank
+// 22 + 3 + 6 * 5. Would catch a rank that is judged millimetres off the sockets, where the turns
+// seem to be seen (61, with standard deviations of degrees and centimetres), and a report that
+// leaves the reader to guess which motion is meant.
+TEST(MeasuredSockets, TurnsAboutTheLineOfTheSocketsAreNotObservable) {
+  const v1::CalibrationReport report = ReportOf("even-odd");
+  EXPECT_EQ(report.summary().rank(), 55);
+  EXPECT_EQ(IdentifiedIn(report, v1::BASE), 30);
+  int turns = 0;
+  for (const v1::Redundancy& redundancy : report.redundancies()) {
+    if (!redundancy.dropped().starts_with("base[")) continue;
+    EXPECT_NE(redundancy.reason().find("about the line of its sockets, along (1, 0, 0)"),
+              std::string::npos)
+        << redundancy.reason();
+    turns += redundancy.reason().starts_with("turn of base[");
+  }
+  EXPECT_EQ(turns, 6);
+  // What is left of the bases is known like the sockets: not by centimetres and degrees.
+  for (const v1::ParameterValue& value : report.parameters().values()) {
+    if (value.group() != v1::BASE) continue;
+    EXPECT_LT(value.sd(), 1) << value.name() << " " << value.unit();
+  }
+}
+
 class PlacementLeftOut : public ::testing::TestWithParam<const char*> {};
 
 // The robot at a place where it was not calibrated. Would catch frames of placements that take up

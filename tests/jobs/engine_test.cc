@@ -5,6 +5,7 @@
 
 #include <stdexcept>
 
+#include "absl/strings/str_cat.h"
 #include "core/base/fault.h"
 #include "server/store/calibrations.h"
 #include "server/store/jobs.h"
@@ -197,8 +198,10 @@ TEST_F(Engine, TheWallClockEndsNoJob) {
 // Catches a queue out of order, and workers that don't work at once.
 TEST_F(Engine, OldestFirstAndAsManyAtOnceAsThereAreWorkers) {
   for (int number : {4, 2, 3}) {
-    store::AddSealedSession(*store_, number, "ur10", number);
-    store::AddJob(*store_, number, "ur10", {number});
+    const std::string robot = absl::StrCat("robot-", number);
+    store::AddRobot(*store_, robot);
+    store::AddSealedSession(*store_, number, robot, number);
+    store::AddJob(*store_, number, robot, {number});
   }
   EngineOptions options = QuickOptions();
   options.workers = 2;
@@ -290,12 +293,15 @@ TEST_F(Engine, AStartThatIsRefused) {
   options.workers = 0;
   options.max_attempts = 0;
   options.deadline = absl::ZeroDuration();
+  options.lease = absl::ZeroDuration();
+  options.sweep = absl::ZeroDuration();
   options.store_retry = absl::ZeroDuration();
   JobEngine wrong(*store_, runner_.AsRunner(), options, clock_);
   const absl::Status status = wrong.Start();
   EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
   EXPECT_EQ(store::FaultFields(status),
-            (std::vector<std::string>{"workers", "deadline", "max_attempts", "store_retry"}));
+            (std::vector<std::string>{"workers", "deadline", "max_attempts", "lease", "sweep",
+                                      "store_retry"}));
 
   store::AddJob(*store_, 1);
   JobEngine unlucky(*store_, runner_.AsRunner(), QuickOptions(), clock_);

@@ -30,6 +30,8 @@ class HandRunner {
   void EndWith(absl::StatusOr<v1::Calibration> result);
   // Runs take no notice of being asked to end.
   void IgnoreCancellation();
+  // Runs call no hook any more, as if they hung, until EndWith.
+  void FallSilent();
   // Told once by the run that is going on.
   void Report(double fraction);
 
@@ -47,6 +49,7 @@ class HandRunner {
   std::optional<absl::StatusOr<v1::Calibration>> result_;
   std::vector<double> reports_;
   bool ignores_cancellation_ = false;
+  bool is_silent_ = false;
 };
 
 // Watches a job and keeps all that it is told.

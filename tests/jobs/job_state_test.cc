@@ -12,8 +12,9 @@ namespace {
 // Catches an arrow that is missing or too many: every pair of states.
 TEST(JobState, OnlyTheseTransitions) {
   const std::set<std::pair<v1::JobState, v1::JobState>> allowed = {
-      {v1::PENDING, v1::RUNNING}, {v1::PENDING, v1::CANCELLED}, {v1::RUNNING, v1::SUCCEEDED},
-      {v1::RUNNING, v1::FAILED},  {v1::RUNNING, v1::CANCELLED}, {v1::RUNNING, v1::PENDING},
+      {v1::PENDING, v1::RUNNING},   {v1::PENDING, v1::CANCELLED}, {v1::PENDING, v1::FAILED},
+      {v1::RUNNING, v1::SUCCEEDED}, {v1::RUNNING, v1::FAILED},    {v1::RUNNING, v1::CANCELLED},
+      {v1::RUNNING, v1::PENDING},
   };
   for (int from = 0; from < v1::JobState_ARRAYSIZE; ++from) {
     for (int to = 0; to < v1::JobState_ARRAYSIZE; ++to) {

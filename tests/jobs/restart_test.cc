@@ -30,7 +30,7 @@ class Restart : public ::testing::Test {
   // As a worker of a process that then ends.
   Claim ClaimAndDie() {
     const auto claim =
-        store_->Write([](store::Transaction& transaction) { return ClaimOldest(transaction); });
+        store_->Write([](store::Transaction& transaction) { return ClaimNext(transaction); });
     EXPECT_TRUE(claim.ok() && claim->has_value()) << claim.status();
     return **claim;
   }

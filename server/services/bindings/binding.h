@@ -8,11 +8,16 @@ namespace truepose::services {
 
 std::unique_ptr<grpc::Service> BindRobotService(const CallContext& call,
                                                 const Executors& executors);
+std::unique_ptr<grpc::Service> BindPlantService(const CallContext& call,
+                                                const Executors& executors);
 std::unique_ptr<grpc::Service> BindSessionService(const CallContext& call,
                                                   const Executors& executors, rpc::Drain& drain);
 std::unique_ptr<grpc::Service> BindCalibrationService(const CallContext& call,
                                                       const Executors& executors,
                                                       rpc::Drain& drain);
+
+std::unique_ptr<grpc::Service> BindWatchService(const CallContext& call, const Executors& executors,
+                                                rpc::Drain& drain, const WatchSettings& settings);
 
 }  // namespace truepose::services
 
@@ -23,3 +28,27 @@ std::unique_ptr<grpc::Service> BindCalibrationService(const CallContext& call,
     return rpc::RunUnary(#Method, context, executor, response,                                    \
                          [this, request] { return services::Method(call_, *request); });          \
   }
+
+// The same for a standard method of a kind of resource: `function` is one of
+// server/services/standard.h.
+#define TRUEPOSE_BIND_STANDARD(Method, Response, function)                                     \
+  grpc::ServerUnaryReactor* Method(grpc::CallbackServerContext* context,                       \
+                                   const v1::Method##Request* request, v1::Response* response) \
+      override {                                                                               \
+    return rpc::RunUnary(#Method, context, handlers_, response,                                \
+                         [this, request]() -> absl::StatusOr<v1::Response> {                   \
+                           v1::Response made;                                                  \
+                           const absl::Status status = function(call_, *request, made);        \
+                           if (!status.ok()) return status;                                    \
+                           return made;                                                        \
+                         });                                                                   \
+  }
+
+// All six of one kind.
+#define TRUEPOSE_BIND_RESOURCE(Kind, Kinds)                                \
+  TRUEPOSE_BIND_STANDARD(Create##Kind, Kind, CreateStandard)               \
+  TRUEPOSE_BIND_STANDARD(Get##Kind, Kind, GetStandard)                     \
+  TRUEPOSE_BIND_STANDARD(List##Kinds, List##Kinds##Response, ListStandard) \
+  TRUEPOSE_BIND_STANDARD(Update##Kind, Kind, UpdateStandard)               \
+  TRUEPOSE_BIND_STANDARD(Delete##Kind, Kind, DeleteStandard)               \
+  TRUEPOSE_BIND_STANDARD(Undelete##Kind, Kind, UndeleteStandard)

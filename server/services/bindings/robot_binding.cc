@@ -11,6 +11,9 @@ class RobotBinding final : public v1::RobotService::CallbackService {
       : call_(call), handlers_(executors.handlers) {}
 
   TRUEPOSE_BIND(CreateRobot, CreateRobotRequest, Robot, handlers_)
+  TRUEPOSE_BIND(UpdateRobot, UpdateRobotRequest, Robot, handlers_)
+  TRUEPOSE_BIND(DeleteRobot, DeleteRobotRequest, Robot, handlers_)
+  TRUEPOSE_BIND(UndeleteRobot, UndeleteRobotRequest, Robot, handlers_)
   TRUEPOSE_BIND(GetRobot, GetRobotRequest, Robot, handlers_)
   TRUEPOSE_BIND(ListRobots, ListRobotsRequest, ListRobotsResponse, handlers_)
   TRUEPOSE_BIND(CreateNominalRevision, CreateNominalRevisionRequest, NominalRevision, handlers_)

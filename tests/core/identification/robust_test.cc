@@ -69,6 +69,9 @@ TEST(Robust, OutliersLoseTheirWeight) {
     const auto result = Calibrate(problem, calibrate, {});
     ASSERT_TRUE(result.ok()) << result.status();
     sd[loss] = result->identification.model_error.position_sd_m;
+    // s_model settled on 1 to 1e-4 of its weights. Would catch a variance of the limited residuals
+    // (0.6 to 0.9) and one of the whole residuals of outliers (in the thousands).
+    EXPECT_NEAR(result->identification.weighted_residual_variance, 1, 1e-2) << Name(loss);
     ASSERT_EQ(result->suspects.size(), 6u) << Name(loss);
     for (const Suspect& suspect : result->suspects) {
       EXPECT_EQ(suspect.reading % 10, 0);

@@ -104,9 +104,10 @@ void AddRobotWithSession(Store& store) {
 
 std::string AddJob(Store& store, int number, const std::string& robot_id,
                    const std::vector<int>& sessions) {
-  MustWrite(store, [&](Transaction& transaction) {
-    return CreateJob(transaction, Uuid(number), SampleJob(robot_id, sessions));
-  });
+  v1::CalibrationJob job = SampleJob(robot_id, sessions);
+  job.set_input_digest(absl::StrCat("input digest ", number));
+  MustWrite(store,
+            [&](Transaction& transaction) { return CreateJob(transaction, Uuid(number), job); });
   return JobName(Uuid(number));
 }
 

@@ -32,7 +32,7 @@ void AddSession(Store& store, int number, const std::string& robot_id, int rows)
 void AddSealedSession(Store& store, int number, const std::string& robot_id, int rows);
 // A robot `ur10` with the sealed session 1.
 void AddRobotWithSession(Store& store);
-// @returns its name.
+// With an input digest of its own. @returns its name.
 std::string AddJob(Store& store, int number, const std::string& robot_id = "ur10",
                    const std::vector<int>& sessions = {1});
 
