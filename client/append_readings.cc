@@ -1,12 +1,11 @@
 #include "client/append_readings.h"
 
 #include <algorithm>
-#include <condition_variable>
 #include <memory>
-#include <mutex>
 #include <thread>
 
 #include "absl/strings/str_cat.h"
+#include "client/window.h"
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
 
@@ -16,37 +15,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kPause{200};  // between connections
-
-// How many batches may be under way.
-class Window {
- public:
-  explicit Window(int size) : free_(size) {}
-
-  // Waits for room. false: the window was closed.
-  bool Enter() {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return closed_ || free_ > 0; });
-    if (closed_) return false;
-    --free_;
-    return true;
-  }
-  void Leave() {
-    std::lock_guard lock(mutex_);
-    ++free_;
-    changed_.notify_one();
-  }
-  void Close() {
-    std::lock_guard lock(mutex_);
-    closed_ = true;
-    changed_.notify_one();
-  }
-
- private:
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  int free_;
-  bool closed_ = false;
-};
 
 // One upload over as many connections as it takes.
 class Upload {

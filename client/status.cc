@@ -1,9 +1,11 @@
 #include "client/status.h"
 
 #include <string_view>
+#include <utility>
 
 #include "absl/strings/cord.h"
 #include "absl/strings/str_cat.h"
+#include "core/base/error_metadata.h"
 #include "core/base/fault.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
@@ -28,6 +30,7 @@ Fault ToFault(const google::rpc::BadRequest::FieldViolation& violation) {
 struct Details {
   bool from_truepose = false;
   FaultList faults;
+  ErrorMetadata metadata;
 };
 
 Details ReadDetails(const grpc::Status& status) {
@@ -39,6 +42,7 @@ Details ReadDetails(const grpc::Status& status) {
     google::rpc::BadRequest bad_request;
     if (any.UnpackTo(&info)) {
       out.from_truepose = info.domain() == "truepose";
+      out.metadata.insert(info.metadata().begin(), info.metadata().end());
     } else if (any.UnpackTo(&bad_request)) {
       for (const auto& violation : bad_request.field_violations())
         out.faults.Add(ToFault(violation));
@@ -48,9 +52,12 @@ Details ReadDetails(const grpc::Status& status) {
 }
 
 // Keeps the server's message, which may count faults that were not sent, and adds the faults as
-// fault.h carries them.
-absl::Status WithFaults(absl::Status status, const FaultList& faults) {
-  faults.ToStatus(status.code())
+// core/base carries them.
+absl::Status WithDetails(absl::Status status, const Details& details) {
+  for (const auto& [name, value] : details.metadata) {
+    status = WithErrorMetadata(std::move(status), name, value);
+  }
+  details.faults.ToStatus(status.code())
       .ForEachPayload([&](absl::string_view type, const absl::Cord& payload) {
         status.SetPayload(type, payload);
       });
@@ -63,13 +70,14 @@ absl::Status FromGrpcStatus(const grpc::Status& status, const std::string& addre
   if (status.ok()) return absl::OkStatus();
   const auto code = static_cast<absl::StatusCode>(status.error_code());
   const Details details = ReadDetails(status);
-  // A server that goes away resets its calls, which gRPC calls cancelled; what we cancel ourselves never gets here.
+  // A server that goes away resets its calls, which gRPC calls cancelled; what we cancel ourselves
+  // never gets here.
   const bool cut = code == absl::StatusCode::kUnavailable || code == absl::StatusCode::kCancelled;
   if (cut && !details.from_truepose) {
     return absl::UnavailableError(
         absl::StrCat("no Truepose server answers at ", address, " (", status.error_message(), ")"));
   }
-  return WithFaults(absl::Status(code, status.error_message()), details.faults);
+  return WithDetails(absl::Status(code, status.error_message()), details);
 }
 
 }  // namespace truepose::client

@@ -8,11 +8,13 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "google/protobuf/repeated_field.h"
 #include "truepose/v1/calibration.pb.h"
 #include "truepose/v1/robot.pb.h"
 #include "truepose/v1/services.pb.h"
@@ -122,6 +124,11 @@ absl::Status ValidateNominal(const v1::Nominal& nominal);
 // without gaps.
 absl::Status ValidateReadings(const v1::Nominal& nominal, const std::vector<v1::Reading>& readings,
                               int first_row);
+// The same for a robot with that many joints. Readings without a fault cost no memory, so that an
+// upload can be checked as it comes. Without `first_row` the rows may be anything.
+absl::Status ValidateReadings(int joints,
+                              const google::protobuf::RepeatedPtrField<v1::Reading>& readings,
+                              std::optional<int> first_row);
 
 // One warning a joint that exceeds its limits: its name, the limit, the rows.
 std::vector<std::string> LimitWarnings(const v1::Nominal& nominal,

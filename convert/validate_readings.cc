@@ -1,5 +1,7 @@
 // What can be wrong with readings.
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "absl/strings/str_cat.h"
@@ -103,11 +105,11 @@ void CheckPosition(const v1::Reading& reading, const std::string& field, FaultLi
   CheckCoordinates(reading, field + ".coordinates", faults);
 }
 
-void CheckReading(const v1::Reading& reading, int joints, int row, const std::string& field,
-                  FaultList* faults) {
-  if (reading.row() != row)
+void CheckReading(const v1::Reading& reading, int joints, std::optional<int> row,
+                  const std::string& field, FaultList* faults) {
+  if (row.has_value() && reading.row() != *row)
     faults->Add(field + ".row", absl::StrCat(reading.row()),
-                absl::StrCat(row, ", rows without gaps"));
+                absl::StrCat(*row, ", rows without gaps"));
   CheckJoints(reading.joints_measured(), joints, field + ".joints_measured", faults);
   CheckJoints(reading.joints_commanded(), joints, field + ".joints_commanded", faults);
   CheckJoints(reading.joint_torques_nm(), joints, field + ".joint_torques_nm", faults);
@@ -115,6 +117,37 @@ void CheckReading(const v1::Reading& reading, int joints, int row, const std::st
   CheckPoints(reading, field + ".points", faults);
   CheckDistance(reading, field, faults);
   CheckTemperature(reading, field + ".temperature_c", faults);
+}
+
+// What follows answers most readings without the texts of field paths: true only when CheckReading
+// finds nothing, false when that has to look.
+bool AreWithin(const google::protobuf::RepeatedField<double>& values, int joints) {
+  if (values.size() != 0 && values.size() != joints) return false;
+  return std::all_of(values.begin(), values.end(),
+                     [](double value) { return std::abs(value) <= kLargestJoint; });
+}
+
+bool IsWithin(const v1::Vector3& v) {
+  return std::abs(v.x()) <= kLargestLength_m && std::abs(v.y()) <= kLargestLength_m &&
+         std::abs(v.z()) <= kLargestLength_m;
+}
+
+bool IsUnit(const v1::Quaternion& q) {
+  const double length = std::sqrt(q.x() * q.x() + q.y() * q.y() + q.z() * q.z() + q.w() * q.w());
+  // Half of what is allowed: the sum may be rounded otherwise there.
+  return std::abs(length - 1) <= kUnitTolerance / 2;
+}
+
+bool IsPlain(const v1::Reading& reading) {
+  return reading.points().empty() && reading.coordinates().empty() && !reading.has_axis() &&
+         !reading.has_position_sd_m() && !reading.has_distance_m() && !reading.has_temperature_c();
+}
+
+bool IsSound(const v1::Reading& reading, int joints) {
+  return IsPlain(reading) && AreWithin(reading.joints_measured(), joints) &&
+         AreWithin(reading.joints_commanded(), joints) &&
+         AreWithin(reading.joint_torques_nm(), joints) && IsWithin(reading.position_m()) &&
+         (!reading.has_orientation() || IsUnit(reading.orientation()));
 }
 
 }  // namespace
@@ -125,6 +158,18 @@ absl::Status ValidateReadings(const v1::Nominal& nominal, const std::vector<v1::
   for (size_t i = 0; i < readings.size(); ++i) {
     CheckReading(readings[i], nominal.joints_size(), first_row + static_cast<int>(i),
                  absl::StrCat("readings[", i, "]"), &faults);
+  }
+  return faults.ToStatus();
+}
+
+absl::Status ValidateReadings(int joints,
+                              const google::protobuf::RepeatedPtrField<v1::Reading>& readings,
+                              std::optional<int> first_row) {
+  FaultList faults;
+  for (int i = 0; i < readings.size(); ++i) {
+    const std::optional<int> row = first_row ? std::optional(*first_row + i) : std::nullopt;
+    if ((!row || readings[i].row() == *row) && IsSound(readings[i], joints)) continue;
+    CheckReading(readings[i], joints, row, absl::StrCat("readings[", i, "]"), &faults);
   }
   return faults.ToStatus();
 }

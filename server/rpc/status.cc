@@ -6,6 +6,7 @@
 
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
+#include "core/base/error_metadata.h"
 #include "core/base/fault.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
@@ -54,6 +55,8 @@ std::string Details(const absl::Status& status, const std::string& message, size
   google::rpc::ErrorInfo info;
   info.set_reason(absl::StatusCodeToString(status.code()));
   info.set_domain(kErrorDomain);
+  for (const auto& [name, value] : ErrorMetadataOf(status))
+    (*info.mutable_metadata())[name] = value;
   if (left_out > 0) (*info.mutable_metadata())["more_faults"] = absl::StrCat(left_out);
   google::rpc::Status details;
   details.set_code(static_cast<int>(status.code()));

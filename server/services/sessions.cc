@@ -1,15 +1,11 @@
 #include "server/services/sessions.h"
 
-#include <vector>
-
-#include "absl/strings/str_cat.h"
 #include "convert/run.h"
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
 #include "server/services/closures.h"
 #include "server/store/names.h"
 #include "server/store/readings.h"
-#include "server/store/robots.h"
 #include "server/store/sessions.h"
 
 namespace truepose::services {
@@ -17,42 +13,6 @@ namespace {
 
 using store::Snapshot;
 using store::Transaction;
-
-// Which session a stream is for, and that robot's nominal. The first message names it.
-absl::Status BeginAppend(const CallContext& call, const std::string& session, AppendState& state) {
-  TRUEPOSE_RETURN_IF_ERROR(store::ParseSessionName(session, "session").status());
-  TRUEPOSE_ASSIGN_OR_RETURN(const auto revision, call.store.Read([&](Snapshot& snapshot) {
-    const absl::StatusOr<v1::Session> found = store::GetSession(snapshot, session);
-    if (!found.ok()) return absl::StatusOr<v1::NominalRevision>(found.status());
-    return store::GetNominalRevision(snapshot, found->nominal_revision());
-  }));
-  state.nominal = revision.nominal();
-  state.session = session;
-  return absl::OkStatus();
-}
-
-absl::Status CheckBatch(const AppendState& state, const v1::AppendReadingsRequest& request) {
-  if (!request.session().empty() && request.session() != state.session) {
-    return FaultStatus("session", request.session(),
-                       absl::StrCat(state.session, " as in the first message"));
-  }
-  const int count = request.readings_size();
-  if (count > kMostReadingsOfBatch) {
-    return FaultStatus("readings", absl::StrCat(count),
-                       absl::StrCat("at most ", kMostReadingsOfBatch, " a message"));
-  }
-  if (count > 0 && request.readings(0).row() < 0) {
-    return FaultStatus("readings[0].row", absl::StrCat(request.readings(0).row()),
-                       "rows that count from 0");
-  }
-  return absl::OkStatus();
-}
-
-absl::Status CheckReadings(const AppendState& state, const v1::AppendReadingsRequest& request) {
-  if (request.readings().empty()) return absl::OkStatus();
-  const std::vector<v1::Reading> readings(request.readings().begin(), request.readings().end());
-  return convert::ValidateReadings(state.nominal, readings, readings.front().row());
-}
 
 }  // namespace
 
@@ -105,19 +65,6 @@ absl::StatusOr<v1::ListReadingsResponse> ListReadings(const CallContext& call,
     return store::ListReadings(snapshot, request.session(), PageOf(request));
   }));
   return ToResponse(std::move(page), &v1::ListReadingsResponse::mutable_readings);
-}
-
-absl::StatusOr<v1::AppendReadingsResponse> AppendReadings(
-    const CallContext& call, AppendState& state, const v1::AppendReadingsRequest& request) {
-  if (state.session.empty()) TRUEPOSE_RETURN_IF_ERROR(BeginAppend(call, request.session(), state));
-  TRUEPOSE_RETURN_IF_ERROR(CheckBatch(state, request));
-  TRUEPOSE_RETURN_IF_ERROR(CheckReadings(state, request));
-  TRUEPOSE_ASSIGN_OR_RETURN(const int count, call.store.Write([&](Transaction& transaction) {
-    return store::AppendReadings(transaction, state.session, request.readings());
-  }));
-  v1::AppendReadingsResponse response;
-  response.set_reading_count(count);
-  return response;
 }
 
 }  // namespace truepose::services

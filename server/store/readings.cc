@@ -11,91 +11,58 @@
 #include "server/store/keys.h"
 #include "server/store/list.h"
 #include "server/store/message.h"
-#include "server/store/session_row.h"
+#include "server/store/reading_rows.h"
 #include "server/store/sql/query.h"
 
 namespace truepose::store {
 namespace {
 
-using Readings = google::protobuf::RepeatedPtrField<v1::Reading>;
-
 std::string RowField(int index) { return absl::StrCat("readings[", index, "].row"); }
 
 // The first row may be stored already, but must not be beyond the next; the others follow one by
 // one.
-absl::Status CheckRows(const Readings& readings, int stored) {
+absl::Status CheckRows(const ReadingBatch& batch, int stored) {
   FaultList faults;
-  for (int i = 0; i < readings.size(); ++i) {
-    const int row = readings[i].row();
+  for (int i = 0; i < batch.size(); ++i) {
+    const int row = batch.row(i);
     const bool first = i == 0;
-    const bool fits = first ? row >= 0 && row <= stored : row == readings[0].row() + i;
+    const bool fits = first ? row >= 0 && row <= stored : row == batch.row(0) + i;
     if (fits) continue;
-    faults.Add(RowField(i), absl::StrCat(row),
-               first ? absl::StrCat("0 to ", stored, ", the next row")
-                     : absl::StrCat(readings[0].row() + i));
+    faults.Add(
+        RowField(i), absl::StrCat(row),
+        first ? absl::StrCat("0 to ", stored, ", the next row") : absl::StrCat(batch.row(0) + i));
   }
   return faults.ToStatus(absl::StatusCode::kOutOfRange);
 }
 
-// Rows [0, count) of the batch that are stored already have to be the same.
-absl::Status CheckRepeats(Snapshot& snapshot, Key session, const Readings& readings, int count) {
-  FaultList faults;
-  TRUEPOSE_ASSIGN_OR_RETURN(
-      auto row,
-      sql::Query(snapshot.sql(),
-                 "SELECT message FROM readings WHERE session = $1 AND row_index = $2", session, 0));
-  for (int i = 0; i < count; ++i) {
-    row->Reset();
-    row->BindInt64(2, readings[i].row());
-    TRUEPOSE_ASSIGN_OR_RETURN(const bool found, row->Step());
-    if (!found)
-      return absl::DataLossError(absl::StrCat("reading ", readings[i].row(), " is missing"));
-    if (row->Blob(0) == ToBlob(readings[i])) continue;
-    faults.Add(RowField(i), absl::StrCat("another reading than the stored row ", readings[i].row()),
-               "the same reading, or a new row");
+// With the time, which stands beside the message: the same reading sent again has the same bytes.
+absl::StatusOr<v1::Reading> ReadTimed(const sql::Statement& row) {
+  absl::StatusOr<v1::Reading> reading = ReadMessage<v1::Reading>(row, 1);
+  const int64_t time = row.Int64(2);
+  if (reading.ok() && time != 0) {
+    *reading->mutable_server_time() = ToTimestamp(absl::FromUnixMicros(time));
   }
-  return faults.ToStatus(absl::StatusCode::kAborted);
-}
-
-absl::Status InsertFrom(Transaction& transaction, Key session, const Readings& readings,
-                        int first) {
-  TRUEPOSE_ASSIGN_OR_RETURN(
-      auto insert,
-      sql::Query(transaction.sql(),
-                 "INSERT INTO readings (session, row_index, message) VALUES ($1, $2, $3)",
-                 session));
-  for (int i = first; i < readings.size(); ++i) {
-    insert->Reset();
-    insert->BindInt64(2, readings[i].row());
-    insert->BindBlob(3, ToBlob(readings[i]));
-    TRUEPOSE_RETURN_IF_ERROR(insert->Step().status());
-  }
-  return absl::OkStatus();
-}
-
-absl::StatusOr<v1::Reading> ReadReading(const sql::Statement& row) {
-  return ReadMessage<v1::Reading>(row, 1);
+  return reading;
 }
 
 }  // namespace
 
 absl::StatusOr<int> AppendReadings(Transaction& transaction, std::string_view session_name,
-                                   const Readings& readings) {
+                                   const ReadingBatch& batch) {
   TRUEPOSE_ASSIGN_OR_RETURN(const Key key, SessionKey(transaction, session_name, "session"));
-  TRUEPOSE_ASSIGN_OR_RETURN(v1::Session session, ReadSession(transaction, key));
-  const int stored = session.reading_count();
-  TRUEPOSE_RETURN_IF_ERROR(CheckRows(readings, stored));
-  const int repeats = readings.empty() ? 0 : std::min(stored - readings[0].row(), readings.size());
-  TRUEPOSE_RETURN_IF_ERROR(CheckRepeats(transaction, key, readings, repeats));
-  if (repeats == readings.size()) return stored;
-  if (session.state() != v1::OPEN) {
-    return Refusal(absl::StatusCode::kFailedPrecondition, "session",
-                   absl::StrCat(session.name(), ", which is sealed"), "an open session");
-  }
-  TRUEPOSE_RETURN_IF_ERROR(InsertFrom(transaction, key, readings, repeats));
-  session.set_reading_count(stored + readings.size() - repeats);
-  TRUEPOSE_RETURN_IF_ERROR(UpdateSession(transaction, session));
-  return session.reading_count();
+  TRUEPOSE_ASSIGN_OR_RETURN(const int stored, CountRows(transaction, key));
+  TRUEPOSE_RETURN_IF_ERROR(CheckRows(batch, stored));
+  if (batch.empty()) return stored;
+  const int first_row = batch.row(0);
+  const int repeats = std::min(stored - first_row, batch.size());
+  FaultList faults;
+  TRUEPOSE_RETURN_IF_ERROR(
+      CompareRows(transaction, key, batch, {0, repeats, first_row}, "row", faults));
+  TRUEPOSE_RETURN_IF_ERROR(faults.ToStatus(absl::StatusCode::kAborted));
+  const int added = batch.size() - repeats;
+  if (added == 0) return stored;
+  TRUEPOSE_RETURN_IF_ERROR(InsertRows(transaction, key, batch, {repeats, added, stored}));
+  return stored + added;
 }
 
 absl::StatusOr<Page<v1::Reading>> ListReadings(Snapshot& snapshot, std::string_view session_name,
@@ -105,13 +72,12 @@ absl::StatusOr<Page<v1::Reading>> ListReadings(Snapshot& snapshot, std::string_v
   TRUEPOSE_ASSIGN_OR_RETURN(const PageStart start,
                             CheckPage(id, request, {.default_size = 1000, .max_size = 10000}));
   TRUEPOSE_ASSIGN_OR_RETURN(const int64_t after, AfterNumber(start, -1));
-  TRUEPOSE_ASSIGN_OR_RETURN(
-      auto rows,
-      sql::Query(snapshot.sql(),
-                 "SELECT row_index, message FROM readings WHERE session = $1 AND row_index > $2 "
-                 "ORDER BY row_index LIMIT $3",
-                 key, after, start.size + 1));
-  return ReadPage<v1::Reading>(id, start.size, *rows, ReadReading);
+  TRUEPOSE_ASSIGN_OR_RETURN(auto rows, sql::Query(snapshot.sql(),
+                                                  "SELECT row_index, message, server_time FROM "
+                                                  "readings WHERE session = $1 AND row_index > $2 "
+                                                  "ORDER BY row_index LIMIT $3",
+                                                  key, after, start.size + 1));
+  return ReadPage<v1::Reading>(id, start.size, *rows, ReadTimed);
 }
 
 absl::StatusOr<std::vector<v1::Reading>> AllReadings(Snapshot& snapshot,
@@ -120,13 +86,12 @@ absl::StatusOr<std::vector<v1::Reading>> AllReadings(Snapshot& snapshot,
   TRUEPOSE_ASSIGN_OR_RETURN(
       auto rows,
       sql::Query(snapshot.sql(),
-                 "SELECT row_index, message FROM readings WHERE session = $1 ORDER BY row_index",
-                 key));
+                 "SELECT message FROM readings WHERE session = $1 ORDER BY row_index", key));
   std::vector<v1::Reading> readings;
   for (;;) {
     TRUEPOSE_ASSIGN_OR_RETURN(const bool found, rows->Step());
     if (!found) return readings;
-    TRUEPOSE_ASSIGN_OR_RETURN(v1::Reading reading, ReadReading(*rows));
+    TRUEPOSE_ASSIGN_OR_RETURN(v1::Reading reading, ReadMessage<v1::Reading>(*rows, 0));
     readings.push_back(std::move(reading));
   }
 }

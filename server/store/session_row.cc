@@ -2,11 +2,25 @@
 
 #include "core/base/status_macros.h"
 #include "server/store/message.h"
+#include "server/store/reading_rows.h"
 #include "server/store/sql/query.h"
 
 namespace truepose::store {
 
 absl::StatusOr<v1::Session> ReadSession(Snapshot& snapshot, Key key) {
+  TRUEPOSE_ASSIGN_OR_RETURN(v1::Session session, ReadSessionMessage(snapshot, key));
+  TRUEPOSE_RETURN_IF_ERROR(Complete(snapshot, key, session));
+  return session;
+}
+
+absl::Status Complete(Snapshot& snapshot, Key key, v1::Session& session) {
+  if (session.state() != v1::OPEN) return absl::OkStatus();
+  TRUEPOSE_ASSIGN_OR_RETURN(const int count, CountRows(snapshot, key));
+  session.set_reading_count(count);
+  return absl::OkStatus();
+}
+
+absl::StatusOr<v1::Session> ReadSessionMessage(Snapshot& snapshot, Key key) {
   TRUEPOSE_ASSIGN_OR_RETURN(
       auto row,
       sql::Query(snapshot.sql(), "SELECT message FROM sessions WHERE sequence = $1", key));

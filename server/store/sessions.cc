@@ -118,9 +118,12 @@ absl::StatusOr<Page<v1::Session>> ListSessions(Snapshot& snapshot, std::string_v
             "ORDER BY sequence DESC LIMIT $3";
   TRUEPOSE_ASSIGN_OR_RETURN(auto rows,
                             sql::Query(snapshot.sql(), sql, robot_id, before, start.size + 1));
-  return ReadPage<v1::Session>(id, start.size, *rows, [](const sql::Statement& row) {
-    return ReadMessage<v1::Session>(row, 1);
-  });
+  return ReadPage<v1::Session>(
+      id, start.size, *rows, [&](const sql::Statement& row) -> absl::StatusOr<v1::Session> {
+        TRUEPOSE_ASSIGN_OR_RETURN(v1::Session session, ReadMessage<v1::Session>(row, 1));
+        TRUEPOSE_RETURN_IF_ERROR(Complete(snapshot, row.Int64(0), session));
+        return session;
+      });
 }
 
 absl::StatusOr<v1::Session> SealSession(Transaction& transaction, std::string_view name,

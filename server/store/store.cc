@@ -159,6 +159,17 @@ void Store::OnCommit(std::function<void()> told) {
   parts_->told = std::move(told);
 }
 
+void Store::RunWriteAsync(std::function<absl::Status(Transaction&)> closure,
+                          std::function<void(const absl::Status&)> done) {
+  if (in_closure) return done(NestedError());
+  parts_->writer->Submit(
+      [closure = std::move(closure)](Transaction& transaction) {
+        const ClosureScope scope;
+        return closure(transaction);
+      },
+      std::move(done));
+}
+
 absl::Status Store::RunRead(const std::function<absl::Status(Snapshot&)>& closure) {
   if (in_closure) return NestedError();
   const auto read = [&closure](sql::Connection& connection) { return ReadOn(connection, closure); };

@@ -53,6 +53,24 @@ class Store {
         closure, [this](auto run) { return RunWrite(std::move(run)); });
   }
 
+  // The same without waiting: `done` gets the result once, after the commit, in another thread (in
+  // this one when the store is closing). It must be brief and must not call Write. Results come in
+  // the order of the calls. For closures that publish no event: OnCommit isn't told of them.
+  template <typename Closure, typename Done>
+  void WriteAsync(Closure closure, Done done) {
+    using Result = std::invoke_result_t<Closure&, Transaction&>;
+    const auto result = std::make_shared<Result>(absl::UnknownError("not run"));
+    RunWriteAsync(
+        [closure = std::move(closure), result](Transaction& transaction) mutable {
+          *result = closure(transaction);
+          return StatusOf(*result);
+        },
+        [result, done = std::move(done)](const absl::Status& status) mutable {
+          if (!status.ok()) return done(Result(status));
+          done(std::move(*result));
+        });
+  }
+
   // Runs `closure(Snapshot&)` on one consistent state, beside the writer. Sees every write that has
   // returned.
   template <typename Closure>
@@ -76,7 +94,15 @@ class Store {
   explicit Store(std::unique_ptr<Parts> parts);
 
   absl::Status RunWrite(std::function<absl::Status(Transaction&)> closure);
+  void RunWriteAsync(std::function<absl::Status(Transaction&)> closure,
+                     std::function<void(const absl::Status&)> done);
   absl::Status RunRead(const std::function<absl::Status(Snapshot&)>& closure);
+
+  static const absl::Status& StatusOf(const absl::Status& status) { return status; }
+  template <typename T>
+  static const absl::Status& StatusOf(const absl::StatusOr<T>& result) {
+    return result.status();
+  }
 
   // Lets one entry point serve closures with and without a value.
   template <typename Result, typename Access, typename Closure, typename Run>

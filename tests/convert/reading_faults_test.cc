@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "convert/fixture.h"
 #include "convert/readings.h"
 #include "convert/robot.h"
+#include "convert/run.h"
 #include "core/base/fault.h"
 #include "tests/convert/samples.h"
 
@@ -226,6 +228,50 @@ TEST(NominalFaults, Masses) {
   mass->set_mass_kg(3);
   mass->set_z_m(1);
   EXPECT_TRUE(ValidateNominal(nominal).ok());
+}
+
+// A value that is often right, and else one at or beyond a limit.
+double Draw(std::mt19937& random, double usual) {
+  const double values[] = {usual, usual, usual, usual, usual, usual, usual,    usual,
+                           0,     1e4,   1.1e4, 1e6,   1.1e6, -1e9,  INFINITY, NAN};
+  return values[random() % std::size(values)];
+}
+
+v1::Reading DrawReading(std::mt19937& random) {
+  v1::Reading reading;
+  reading.set_row(random() % 50 == 0 ? 7 : 0);
+  const int joints = random() % 20 == 0 ? 5 : 6;
+  for (int i = 0; i < joints; ++i) reading.add_joints_measured(Draw(random, 0.5));
+  if (random() % 4 == 0) reading.add_joint_torques_nm(1);
+  if (random() % 2 == 0) reading.mutable_position_m()->set_y(Draw(random, 1));
+  if (random() % 2 == 0) {
+    reading.mutable_orientation()->set_w(random() % 3 == 0 ? 1 + 1.5e-6 : 1);
+    reading.mutable_orientation()->set_x(random() % 5 == 0 ? Draw(random, 0) : 0);
+  }
+  if (random() % 8 == 0) reading.mutable_axis()->set_z(random() % 2);
+  if (random() % 8 == 0) reading.mutable_position_sd_m()->set_x(Draw(random, -1));
+  if (random() % 8 == 0) reading.set_temperature_c(Draw(random, -300));
+  if (random() % 8 == 0) reading.set_distance_m(Draw(random, -1));
+  if (random() % 8 == 0) reading.set_coordinates("q");
+  if (random() % 8 == 0) reading.add_points();
+  return reading;
+}
+
+// Would catch a fault that the short check of uploads lets pass: what it says has to be what the
+// whole check says, for faults of every field.
+TEST(ReadingFaults, TheShortCheckSaysWhatTheWholeOneSays) {
+  std::mt19937 random(1);
+  int sound = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    google::protobuf::RepeatedPtrField<v1::Reading> readings;
+    *readings.Add() = DrawReading(random);
+    const absl::Status whole =
+        ValidateReadings(SampleNominal(), {readings.begin(), readings.end()}, 0);
+    ASSERT_EQ(ValidateReadings(SampleNominal().joints_size(), readings, 0), whole)
+        << readings[0].DebugString();
+    sound += whole.ok();
+  }
+  EXPECT_GT(sound, 1'000) << "the draw is nearly always at fault";
 }
 
 }  // namespace

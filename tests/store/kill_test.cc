@@ -38,7 +38,7 @@ void AppendForEver(Store& store, int session, int pipe) {
       store.Read([&](Snapshot& snapshot) { return GetSession(snapshot, name); })->reading_count();
   for (;;) {
     const auto count = store.Write([&](Transaction& transaction) {
-      return AppendReadings(transaction, name, SampleReadings(stored, kBatch));
+      return AppendReadings(transaction, name, ReadingBatch(SampleReadings(stored, kBatch)));
     });
     if (!count.ok()) _exit(3);
     stored = *count;

@@ -55,6 +55,31 @@ TEST_F(Sql, ParametersGoByTheirDigits) {
       << "one too many";
 }
 
+// Catches statements that are kept between their uses with what they were given, one that is in use
+// twice, and one that holds a row after its user has gone.
+TEST_F(Sql, AStatementIsUsedAgainAsNew) {
+  constexpr char kInsert[] = "INSERT INTO t (id, s) VALUES ($1, $2)";
+  ASSERT_TRUE(sql::Run(*connection_, kInsert, 1, std::string("one")).ok());
+  {
+    auto unbound = connection_->Prepare(kInsert);
+    (*unbound)->BindInt64(1, 2);
+    ASSERT_TRUE((*unbound)->Step().ok());
+  }
+  EXPECT_EQ(*QueryInt64(*connection_, "SELECT COUNT(*) FROM t WHERE s IS NULL"), 1);
+  {
+    auto outer = Query(*connection_, "SELECT id FROM t ORDER BY id");
+    auto inner = Query(*connection_, "SELECT id FROM t ORDER BY id");
+    ASSERT_TRUE(*(*outer)->Step());
+    ASSERT_TRUE(*(*inner)->Step());
+    ASSERT_TRUE(*(*inner)->Step());
+    EXPECT_EQ((*outer)->Int64(0), 1);
+    EXPECT_EQ((*inner)->Int64(0), 2);
+  }
+  EXPECT_TRUE(connection_->Execute("DROP TABLE t").ok()) << "a reader was left in the middle";
+  ASSERT_TRUE(connection_->Execute("CREATE TABLE t (id INTEGER, s TEXT)").ok());
+  EXPECT_TRUE(sql::Run(*connection_, kInsert, 1, std::string("new table")).ok());
+}
+
 // Catches codes that callers can't act on.
 TEST_F(Sql, ErrorsHaveTheirCodes) {
   ASSERT_TRUE(connection_->Execute("INSERT INTO t (id) VALUES (1)").ok());

@@ -1,10 +1,27 @@
 #include "server/rpc/ack_stream.h"
+#include "server/services/append.h"
 #include "server/services/bindings/binding.h"
 #include "server/services/sessions.h"
 #include "truepose/v1/services.grpc.pb.h"
 
 namespace truepose::services {
 namespace {
+
+// A stream of uploads, as the adapter sees it.
+class Appender final
+    : public rpc::AckHandler<v1::AppendReadingsRequest, v1::AppendReadingsResponse> {
+ public:
+  explicit Appender(const CallContext& call) : stream_(call) {}
+  bool IsQuick(const v1::AppendReadingsRequest& request) const override {
+    return stream_.IsQuick(request);
+  }
+  void Begin(const v1::AppendReadingsRequest& request, Done done) override {
+    stream_.Append(request, std::move(done));
+  }
+
+ private:
+  AppendStream stream_;
+};
 
 class SessionBinding final : public v1::SessionService::CallbackService {
  public:
@@ -20,11 +37,8 @@ class SessionBinding final : public v1::SessionService::CallbackService {
   grpc::ServerBidiReactor<v1::AppendReadingsRequest, v1::AppendReadingsResponse>* AppendReadings(
       grpc::CallbackServerContext* context) override {
     using Stream = rpc::AckStream<v1::AppendReadingsRequest, v1::AppendReadingsResponse>;
-    const auto stream = Stream::Make(
-        handlers_, rpc::MakeCall("AppendReadings", *context),
-        [this, state = std::make_shared<AppendState>()](const v1::AppendReadingsRequest& request) {
-          return services::AppendReadings(call_, *state, request);
-        });
+    const auto stream = Stream::Make(handlers_, rpc::MakeCall("AppendReadings", *context),
+                                     std::make_unique<Appender>(call_));
     drain_.Add(stream);
     return stream.get();
   }

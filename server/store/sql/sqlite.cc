@@ -16,18 +16,21 @@ constexpr int kApplicationId = 0x54504f53;
 
 class SqliteConnection : public Connection {
  public:
-  explicit SqliteConnection(sqlite3* database) : database_(database) {}
-  ~SqliteConnection() override { sqlite3_close_v2(database_); }
+  explicit SqliteConnection(sqlite3* database) : database_(database), statements_(database) {}
+  ~SqliteConnection() override {
+    statements_.Clear();
+    sqlite3_close_v2(database_);
+  }
 
   absl::StatusOr<std::unique_ptr<Statement>> Prepare(std::string_view sql) override {
-    return SqliteStatement::Prepare(database_, sql);
+    return statements_.Prepare(sql);
   }
   absl::Status Execute(std::string_view sql) override {
     const int code = sqlite3_exec(database_, std::string(sql).c_str(), nullptr, nullptr, nullptr);
     return code == SQLITE_OK ? absl::OkStatus() : SqliteStatus(code, database_);
   }
   absl::Status Begin(Access access) override {
-    return Execute(access == Access::kWrite ? "BEGIN IMMEDIATE" : "BEGIN");
+    return Run(*this, access == Access::kWrite ? "BEGIN IMMEDIATE" : "BEGIN");
   }
   absl::StatusOr<int64_t> SchemaVersion() override {
     return QueryInt64(*this, "PRAGMA user_version");
@@ -40,6 +43,7 @@ class SqliteConnection : public Connection {
 
  private:
   sqlite3* database_;
+  StatementCache statements_;
 };
 
 absl::Status OpenFault(const std::string& path, std::string found, std::string expected) {

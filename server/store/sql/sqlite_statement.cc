@@ -1,6 +1,7 @@
 #include "server/store/sql/sqlite_statement.h"
 
 #include "absl/strings/str_cat.h"
+#include "core/base/status_macros.h"
 
 namespace truepose::store::sql {
 namespace {
@@ -29,6 +30,12 @@ absl::StatusCode CodeOf(int code, int extended) {
   }
 }
 
+// More than the texts of all repositories together.
+constexpr size_t kMostIdle = 500;
+
+// Some of these act when they are compiled, not when they run.
+bool IsPragma(std::string_view sql) { return sql.starts_with("PRAGMA"); }
+
 }  // namespace
 
 absl::Status SqliteStatus(int code, sqlite3* database) {
@@ -38,19 +45,44 @@ absl::Status SqliteStatus(int code, sqlite3* database) {
   return absl::Status(CodeOf(primary, sqlite3_extended_errcode(database)), message);
 }
 
-absl::StatusOr<std::unique_ptr<Statement>> SqliteStatement::Prepare(sqlite3* database,
-                                                                    std::string_view sql) {
-  sqlite3_stmt* statement = nullptr;
-  const int code =
-      sqlite3_prepare_v2(database, sql.data(), static_cast<int>(sql.size()), &statement, nullptr);
-  if (code != SQLITE_OK) return SqliteStatus(code, database);
-  return std::unique_ptr<Statement>(new SqliteStatement(database, statement));
+absl::StatusOr<std::unique_ptr<Statement>> StatementCache::Prepare(std::string_view sql) {
+  const auto found = idle_.find(sql);
+  if (found != idle_.end()) return std::make_unique<SqliteStatement>(*this, idle_.extract(found));
+  TRUEPOSE_ASSIGN_OR_RETURN(Idle::node_type node, Compile(sql));
+  return std::make_unique<SqliteStatement>(*this, std::move(node));
 }
 
-SqliteStatement::~SqliteStatement() { sqlite3_finalize(statement_); }
+absl::StatusOr<StatementCache::Idle::node_type> StatementCache::Compile(std::string_view sql) {
+  Compiled compiled;
+  const int code = sqlite3_prepare_v2(database_, sql.data(), static_cast<int>(sql.size()),
+                                      &compiled.statement, nullptr);
+  if (code != SQLITE_OK) return SqliteStatus(code, database_);
+  const int parameters = sqlite3_bind_parameter_count(compiled.statement);
+  compiled.positions.push_back(0);
+  for (int i = 1; i <= parameters; ++i) {
+    const std::string name = absl::StrCat("$", i);
+    compiled.positions.push_back(sqlite3_bind_parameter_index(compiled.statement, name.c_str()));
+  }
+  Idle one;
+  return one.extract(one.emplace(std::string(sql), std::move(compiled)).first);
+}
+
+void StatementCache::GiveBack(Idle::node_type node) {
+  sqlite3_stmt* statement = node.mapped().statement;
+  sqlite3_reset(statement);
+  sqlite3_clear_bindings(statement);
+  const bool keep = idle_.size() < kMostIdle && !IsPragma(node.key());
+  if (!keep || !idle_.insert(std::move(node)).inserted) sqlite3_finalize(statement);
+}
+
+void StatementCache::Clear() {
+  for (const auto& [sql, compiled] : idle_) sqlite3_finalize(compiled.statement);
+  idle_.clear();
+}
 
 int SqliteStatement::Position(int index) const {
-  return sqlite3_bind_parameter_index(statement_, absl::StrCat("$", index).c_str());
+  const std::vector<int>& positions = node_.mapped().positions;
+  return index > 0 && index < static_cast<int>(positions.size()) ? positions[index] : 0;
 }
 
 void SqliteStatement::Keep(int code) {
@@ -83,7 +115,7 @@ absl::StatusOr<bool> SqliteStatement::Step() {
   const int code = sqlite3_step(statement_);
   if (code == SQLITE_ROW) return true;
   if (code == SQLITE_DONE) return false;
-  return SqliteStatus(code, database_);
+  return SqliteStatus(code, sqlite3_db_handle(statement_));
 }
 
 void SqliteStatement::Reset() { sqlite3_reset(statement_); }

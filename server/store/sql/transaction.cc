@@ -1,6 +1,7 @@
 #include "server/store/sql/transaction.h"
 
 #include "core/base/status_macros.h"
+#include "server/store/sql/query.h"
 
 namespace truepose::store::sql {
 
@@ -10,17 +11,17 @@ absl::StatusOr<Transaction> Transaction::Begin(Connection& connection, Access ac
 }
 
 Transaction::~Transaction() {
-  if (connection_ != nullptr) connection_->Execute("ROLLBACK").IgnoreError();
+  if (connection_ != nullptr) Run(*connection_, "ROLLBACK").IgnoreError();
 }
 
 absl::Status Transaction::Commit() {
-  TRUEPOSE_RETURN_IF_ERROR(connection_->Execute("COMMIT"));
+  TRUEPOSE_RETURN_IF_ERROR(Run(*connection_, "COMMIT"));
   connection_ = nullptr;
   return absl::OkStatus();
 }
 
 absl::StatusOr<Savepoint> Savepoint::Begin(Connection& connection) {
-  TRUEPOSE_RETURN_IF_ERROR(connection.Execute("SAVEPOINT closure"));
+  TRUEPOSE_RETURN_IF_ERROR(Run(connection, "SAVEPOINT closure"));
   return Savepoint(connection);
 }
 
@@ -29,13 +30,13 @@ Savepoint::~Savepoint() {
 }
 
 absl::Status Savepoint::Release() {
-  return std::exchange(connection_, nullptr)->Execute("RELEASE SAVEPOINT closure");
+  return Run(*std::exchange(connection_, nullptr), "RELEASE SAVEPOINT closure");
 }
 
 absl::Status Savepoint::RollBack() {
   Connection* connection = std::exchange(connection_, nullptr);
-  TRUEPOSE_RETURN_IF_ERROR(connection->Execute("ROLLBACK TO SAVEPOINT closure"));
-  return connection->Execute("RELEASE SAVEPOINT closure");
+  TRUEPOSE_RETURN_IF_ERROR(Run(*connection, "ROLLBACK TO SAVEPOINT closure"));
+  return Run(*connection, "RELEASE SAVEPOINT closure");
 }
 
 }  // namespace truepose::store::sql

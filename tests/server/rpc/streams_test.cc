@@ -43,7 +43,7 @@ class WatchService : public v1::CalibrationService::CallbackService {
 
 class UploadService : public v1::SessionService::CallbackService {
  public:
-  UploadService(Executor& executor, Uploads::Handler handler)
+  UploadService(Executor& executor, Uploads::Function handler)
       : executor_(executor), handler_(std::move(handler)) {}
   grpc::ServerBidiReactor<v1::AppendReadingsRequest, v1::AppendReadingsResponse>* AppendReadings(
       grpc::CallbackServerContext* context) override {
@@ -52,7 +52,7 @@ class UploadService : public v1::SessionService::CallbackService {
 
  private:
   Executor& executor_;
-  const Uploads::Handler handler_;
+  const Uploads::Function handler_;
 };
 
 // A server on a loopback port; channels within the process have no buffers and would hide how
@@ -192,6 +192,60 @@ TEST(AckStreamTest, AnswersEachRequestInOrder) {
   for (int i = 1; i <= 100; ++i) {
     ASSERT_TRUE(upload.stream->Read(&response));
     EXPECT_EQ(response.reading_count(), i);
+  }
+  EXPECT_FALSE(upload.stream->Read(&response));
+  EXPECT_TRUE(upload.stream->Finish().ok());
+}
+
+// Answers four requests at once, the last of them first, in gRPC's own thread.
+class Reverser : public Uploads::Handler {
+ public:
+  bool IsQuick(const v1::AppendReadingsRequest&) const override { return true; }
+  void Begin(const v1::AppendReadingsRequest& request, Done done) override {
+    waiting_.emplace_back(request.first_sequence(), std::move(done));
+    if (waiting_.size() < 4) return;
+    for (auto one = waiting_.rbegin(); one != waiting_.rend(); ++one) {
+      v1::AppendReadingsResponse response;
+      response.set_durable_sequence(one->first);
+      one->second(response);
+    }
+    waiting_.clear();
+  }
+
+ private:
+  std::vector<std::pair<int64_t, Done>> waiting_;
+};
+
+class ReversingService : public v1::SessionService::CallbackService {
+ public:
+  explicit ReversingService(Executor& executor) : executor_(executor) {}
+  grpc::ServerBidiReactor<v1::AppendReadingsRequest, v1::AppendReadingsResponse>* AppendReadings(
+      grpc::CallbackServerContext* context) override {
+    return Uploads::Make(executor_, MakeCall("Append", *context), std::make_unique<Reverser>())
+        .get();
+  }
+
+ private:
+  Executor& executor_;
+};
+
+// Would catch acknowledgements that overtake one another, or a stream that waits for an answer
+// before it reads on: then the fourth request never came.
+TEST(AckStreamTest, LateAnswersLeaveInTheOrderOfTheRequests) {
+  Executor executor(1, 1);
+  ReversingService service(executor);
+  const LoopbackServer server(service);
+  Upload upload(server);
+  v1::AppendReadingsRequest request;
+  for (int i = 1; i <= 40; ++i) {
+    request.set_first_sequence(i);
+    upload.stream->Write(request);
+  }
+  upload.stream->WritesDone();
+  v1::AppendReadingsResponse response;
+  for (int i = 1; i <= 40; ++i) {
+    ASSERT_TRUE(upload.stream->Read(&response));
+    EXPECT_EQ(response.durable_sequence(), i);
   }
   EXPECT_FALSE(upload.stream->Read(&response));
   EXPECT_TRUE(upload.stream->Finish().ok());

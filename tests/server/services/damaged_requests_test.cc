@@ -80,8 +80,18 @@ TEST_F(DamagedRequestsTest, CreateSession) {
 
 TEST_F(DamagedRequestsTest, AppendReadings) {
   Try(testing::Batch(kSession2, 2, 3), [&](const auto& request) {
-    AppendState state;
-    return AppendReadings(call(), state, request);
+    AppendStream stream(call());
+    return testing::AppendAndWait(stream, request);
+  });
+}
+
+TEST_F(DamagedRequestsTest, AppendReadingsOfASource) {
+  auto batch = testing::Batch(kSession2, 2, 3);
+  batch.set_source("00000000-0000-4000-8000-0000000000aa");
+  batch.set_first_sequence(1);
+  Try(batch, [&](const auto& request) {
+    AppendStream stream(call());
+    return testing::AppendAndWait(stream, request);
   });
 }
 

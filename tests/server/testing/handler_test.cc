@@ -1,5 +1,8 @@
 #include "tests/server/testing/handler_test.h"
 
+#include <future>
+#include <utility>
+
 #include "absl/strings/str_cat.h"
 #include "convert/run.h"
 #include "server/services/jobs.h"
@@ -8,6 +11,15 @@
 #include "server/store/calibrations.h"
 
 namespace truepose::testing {
+
+absl::StatusOr<v1::AppendReadingsResponse> AppendAndWait(services::AppendStream& stream,
+                                                         const v1::AppendReadingsRequest& request) {
+  std::promise<absl::StatusOr<v1::AppendReadingsResponse>> answer;
+  stream.Append(request, [&](absl::StatusOr<v1::AppendReadingsResponse> acknowledgement) {
+    answer.set_value(std::move(acknowledgement));
+  });
+  return answer.get_future().get();
+}
 namespace {
 
 // Made once by a real calibration, since evaluation and compensation look into it.
@@ -45,8 +57,8 @@ void HandlerTest::AddSession(const std::string& session_id, const std::string& r
   ASSERT_THAT(services::CreateSession(
                   call(), SessionRequest(session_id, absl::StrCat("robots/", robot_id))),
               IsOk());
-  services::AppendState state;
-  ASSERT_THAT(services::AppendReadings(call(), state, Batch(session_id, 0, readings)), IsOk());
+  services::AppendStream stream(call());
+  ASSERT_THAT(AppendAndWait(stream, Batch(session_id, 0, readings)), IsOk());
 }
 
 void HandlerTest::AddSimulatedSession(const std::string& session_id, const std::string& robot_id,
@@ -57,8 +69,8 @@ void HandlerTest::AddSimulatedSession(const std::string& session_id, const std::
   v1::AppendReadingsRequest batch;
   batch.set_session(absl::StrCat("sessions/", session_id));
   *batch.mutable_readings() = SimulatedSession(poses, 1).readings();
-  services::AppendState state;
-  ASSERT_THAT(services::AppendReadings(call(), state, batch), IsOk());
+  services::AppendStream stream(call());
+  ASSERT_THAT(AppendAndWait(stream, batch), IsOk());
   CloseSession(session_id, poses);
 }
 

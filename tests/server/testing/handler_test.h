@@ -7,6 +7,7 @@
 
 #include "gtest/gtest.h"
 #include "server/jobs/engine.h"
+#include "server/services/append.h"
 #include "server/services/call_context.h"
 #include "server/store/store.h"
 #include "tests/server/testing/examples.h"
@@ -14,6 +15,10 @@
 #include "tests/server/testing/text_proto.h"
 
 namespace truepose::testing {
+
+// One message of an upload, and its acknowledgement.
+absl::StatusOr<v1::AppendReadingsResponse> AppendAndWait(services::AppendStream& stream,
+                                                         const v1::AppendReadingsRequest& request);
 
 class HandlerTest : public ::testing::Test {
  protected:

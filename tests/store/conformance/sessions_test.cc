@@ -19,8 +19,9 @@ auto Create(int number, const v1::Session& session) {
 }
 
 auto Append(int number, const Readings& readings) {
-  return
-      [=](Transaction& transaction) { return AppendReadings(transaction, Name(number), readings); };
+  return [=](Transaction& transaction) {
+    return AppendReadings(transaction, Name(number), ReadingBatch(readings));
+  };
 }
 
 auto Seal(int number, int count, const std::string& digest) {
@@ -204,6 +205,23 @@ TEST_P(StoreConformance, ListsOfSessions) {
   EXPECT_EQ(list("robots/panda", {.size = 2, .token = first->next_page_token}).status().code(),
             absl::StatusCode::kInvalidArgument);
   EXPECT_EQ(list("robots/none", {}).status().code(), absl::StatusCode::kNotFound);
+}
+
+// Catches a time of the client, of the commit before, or one that changes when a reading is sent
+// again.
+TEST_P(StoreConformance, ReadingsKeepTheTimeTheyCame) {
+  AddRobot(*store_, "ur10");
+  AddSession(*store_, 1, "ur10", 1);
+  const int64_t first = absl::ToUnixSeconds(clock_.Now());
+  clock_.Advance(absl::Minutes(5));
+  Readings again = SampleReadings(0, 2);
+  again[0].mutable_server_time()->set_seconds(1);
+  again[1].mutable_server_time()->set_seconds(1);
+  ASSERT_TRUE(Write(Append(1, again)).ok());
+  const auto page = Read([](Snapshot& snapshot) { return ListReadings(snapshot, Name(1), {}); });
+  ASSERT_EQ(page->items.size(), 2u);
+  EXPECT_EQ(page->items[0].server_time().seconds(), first);
+  EXPECT_EQ(page->items[1].server_time().seconds(), first + 300);
 }
 
 // Catches pages of readings that overlap or leave rows out.

@@ -85,7 +85,8 @@ void AddSession(Store& store, int number, const std::string& robot_id, int rows)
     return CreateSession(transaction, Uuid(number), SampleSession(robot_id));
   });
   MustWrite(store, [&](Transaction& transaction) {
-    return AppendReadings(transaction, SessionName(Uuid(number)), SampleReadings(0, rows));
+    return AppendReadings(transaction, SessionName(Uuid(number)),
+                          ReadingBatch(SampleReadings(0, rows)));
   });
 }
 
