@@ -87,11 +87,15 @@ std::string SummaryLine(const v1::CalibrationReport& report) {
                       absl::StrFormat("%.3g", summary.condition()));
 }
 
-// "unexplained per axis: 0.284 mm, 0.034 deg; weighted residual variance 1.00"
+// "unexplained per axis: 0.284 mm, 0.034 deg; weighted residual variance 1.00"; no degrees where no
+// rotation was measured.
 std::string NoiseLine(const v1::Summary& summary) {
-  return absl::StrFormat("unexplained per axis: %s mm, %s deg; weighted residual variance %.2f",
-                         Fixed(summary.model_sd_position_mm(), kFewDigits),
-                         Fixed(summary.model_sd_rotation_deg(), kFewDigits),
+  const std::string degrees =
+      summary.model_sd_rotation_deg() > 0
+          ? absl::StrCat(", ", Fixed(summary.model_sd_rotation_deg(), kFewDigits), " deg")
+          : "";
+  return absl::StrFormat("unexplained per axis: %s mm%s; weighted residual variance %.2f",
+                         Fixed(summary.model_sd_position_mm(), kFewDigits), degrees,
                          summary.weighted_residual_variance());
 }
 
@@ -102,6 +106,7 @@ std::string OptionsText(const v1::CalibrationOptions& options) {
     if (!value.empty() && value != "none" && value != "all")
       absl::StrAppend(&text, ", ", name, " ", value);
   };
+  add("objective", options.objective());
   add("calibrate", options.calibrate());
   add("prior", options.prior() == "calibration" ? options.prior_calibration().name().empty()
                                                       ? "calibration"
@@ -248,7 +253,7 @@ std::string CalibrationText(const v1::Calibration& calibration, const Console& c
   AppendSection("Tool in the frame of the flange, base in that of the instrument",
                 FramesTable(report), &text);
   AppendSection("Parameters that stay at nominal", RedundanciesText(report), &text);
-  absl::StrAppend(&text, FindingsText(report));
+  absl::StrAppend(&text, FindingsText(calibration));
   AppendSection("Residuals", SetsTable(report.sets()), &text);
   AppendSection("Control rows against the mean of their own place in the fixture",
                 PlacesText(report), &text);
