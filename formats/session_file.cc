@@ -142,7 +142,11 @@ std::string EulerHint(const Names& extra) {
 
 void AddWarnings(const Columns& columns, const Repeats& repeats, const FewerCoordinates& fewer,
                  const SessionFileOptions& options, std::string_view file_name, SessionFile& file) {
-  const auto& extra = file.session.extra_columns();
+  std::vector<std::string> extra;
+  for (const std::string& name : file.session.extra_columns()) {
+    if (std::ranges::find(options.used_columns, name) == options.used_columns.end())
+      extra.push_back(name);
+  }
   if (!extra.empty()) {
     file.warnings.push_back(StrCat(file_name, ": columns that are kept but not used: ",
                                    absl::StrJoin(extra, ", "), EulerHint(extra)));

@@ -15,6 +15,8 @@ struct SessionFileOptions {
   // Convention of the columns rx_, ry_, rz_, such as `xyz-intrinsic` (rotation.h). "" = the file's
   // Euler angles are no orientation and are kept as extra columns.
   std::string euler;
+  // Columns beyond the known ones that the caller uses by name; no warning speaks of them.
+  std::vector<std::string> used_columns = {};
 };
 
 struct SessionFile {

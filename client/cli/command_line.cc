@@ -76,7 +76,10 @@ absl::Status ConversionFault(absl::string_view what) {
 
 Command Command::Add(const std::string& name, const std::string& summary) const {
   app_->require_subcommand(0, 1);
-  return Command(app_->add_subcommand(name, summary), line_);
+  CLI::App* const added = app_->add_subcommand(name, summary);
+  // The parser hands a command's footer down, but its text is about that command alone.
+  added->footer("");
+  return Command(added, line_);
 }
 
 const Command& Command::Option(const std::string& names, const std::string& value, Target target,

@@ -14,7 +14,6 @@
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
 #include "formats/fixture_file.h"
-#include "formats/session_file.h"
 #include "formats/text_file.h"
 
 namespace truepose::cli {
@@ -25,9 +24,10 @@ constexpr char kLocalPrefix[] = "sha256:";
 constexpr size_t kMostCalibrationBytes = 1'000'000'000;
 
 absl::StatusOr<v1::SessionInput> LoadSession(const std::string& path, const v1::Nominal& nominal,
-                                             const std::string& euler, const Console& console) {
+                                             const formats::SessionFileOptions& options,
+                                             const Console& console) {
   TRUEPOSE_ASSIGN_OR_RETURN(formats::SessionFile file,
-                            formats::ReadSessionFile(path, nominal, {euler}));
+                            formats::ReadSessionFile(path, nominal, options));
   for (const std::string& warning : file.warnings) Warn(console, warning);
   v1::SessionInput input;
   *input.mutable_session() = std::move(file.session);
@@ -78,14 +78,13 @@ absl::Status CheckNoEnds(const formats::UrdfEnds& ends) {
   return UsageError("--urdf-base and --urdf-tip are for robot files, with --local");
 }
 
-absl::StatusOr<std::vector<v1::SessionInput>> LoadSessions(const std::vector<std::string>& paths,
-                                                           const v1::Nominal& nominal,
-                                                           const std::string& euler,
-                                                           const Console& console) {
+absl::StatusOr<std::vector<v1::SessionInput>> LoadSessions(
+    const std::vector<std::string>& paths, const v1::Nominal& nominal,
+    const formats::SessionFileOptions& options, const Console& console) {
   std::vector<v1::SessionInput> sessions;
   FaultList faults;
   for (const std::string& path : paths) {
-    absl::StatusOr<v1::SessionInput> session = LoadSession(path, nominal, euler, console);
+    absl::StatusOr<v1::SessionInput> session = LoadSession(path, nominal, options, console);
     faults.AddAll(session.status());
     if (session.ok()) sessions.push_back(*std::move(session));
   }

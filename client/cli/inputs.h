@@ -8,6 +8,7 @@
 #include "absl/status/statusor.h"
 #include "client/cli/console.h"
 #include "formats/robot_file.h"
+#include "formats/session_file.h"
 #include "formats/urdf.h"
 #include "truepose/v1/calibration.pb.h"
 #include "truepose/v1/session.pb.h"
@@ -28,11 +29,9 @@ absl::Status CheckNoEnds(const formats::UrdfEnds& ends);
 
 // Session files for that robot, or the faults of all of them. A session's name is its path; its
 // robot is not set. What the reader of a file warns of goes to console.err.
-// @param euler "" or the convention of rx_, ry_, rz_ columns (formats/session_file.h).
-absl::StatusOr<std::vector<v1::SessionInput>> LoadSessions(const std::vector<std::string>& paths,
-                                                           const v1::Nominal& nominal,
-                                                           const std::string& euler,
-                                                           const Console& console);
+absl::StatusOr<std::vector<v1::SessionInput>> LoadSessions(
+    const std::vector<std::string>& paths, const v1::Nominal& nominal,
+    const formats::SessionFileOptions& options, const Console& console);
 
 // Joints beyond their limits: warnings on console.err, with `strict` faults.
 absl::Status CheckLimits(const v1::Nominal& nominal, const v1::SessionInput& session, bool strict,

@@ -13,6 +13,7 @@ namespace {
 
 constexpr char kUsagePayload[] = "type.truepose/usage";
 constexpr char kAnsweredPayload[] = "type.truepose/answered";
+constexpr char kHintPayload[] = "type.truepose/hint";
 
 // The same status with another code or message; an absl::Status can't be changed in place.
 absl::Status Copy(const absl::Status& status, absl::StatusCode code, absl::string_view message) {
@@ -53,8 +54,10 @@ absl::Status AsFaultOfInput(const absl::Status& status) {
 }
 
 absl::Status WithHint(const absl::Status& status, absl::StatusCode code, absl::string_view hint) {
-  if (status.code() != code) return status;
-  return Copy(status, code, absl::StrCat(status.message(), "\n", hint));
+  if (status.code() != code || status.GetPayload(kHintPayload).has_value()) return status;
+  absl::Status hinted = Copy(status, code, absl::StrCat(status.message(), "\n", hint));
+  if (code == absl::StatusCode::kNotFound) hinted.SetPayload(kHintPayload, absl::Cord(hint));
+  return hinted;
 }
 
 absl::Status RenameFields(const absl::Status& status, const Renaming& renaming) {
@@ -67,7 +70,10 @@ absl::Status RenameFields(const absl::Status& status, const Renaming& renaming) 
     }
     faults.Add(std::move(fault));
   }
-  return faults.empty() ? status : faults.ToStatus(status.code());
+  if (faults.empty()) return status;
+  const auto hint = status.GetPayload(kHintPayload);
+  const absl::Status renamed = faults.ToStatus(status.code());
+  return hint ? WithHint(renamed, status.code(), std::string(*hint)) : renamed;
 }
 
 int ExitCodeOf(const absl::Status& status) {

@@ -23,11 +23,12 @@ absl::Status OptionFault(absl::string_view option, absl::string_view found,
 absl::Status AsInputFault(const absl::Status& status);
 
 // `hint` on a line of its own after the message when the status has that code; faults are kept.
+// What was not found keeps the first hint it got: the innermost call knows best what was asked for.
 absl::Status WithHint(const absl::Status& status, absl::StatusCode code, absl::string_view hint);
 
 // Faults name fields of messages; people typed options. Replaces the beginning of each field by the
 // first pair that fits, such as {"options.split", "--split"}; a status without faults stays as it
-// is.
+// is, and so does the hint of what was not found.
 using Renaming = std::vector<std::pair<std::string, std::string>>;
 absl::Status RenameFields(const absl::Status& status, const Renaming& renaming);
 

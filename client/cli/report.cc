@@ -112,6 +112,7 @@ std::string OptionsText(const v1::CalibrationOptions& options) {
     if (!value.empty() && value != "none" && value != "all")
       absl::StrAppend(&text, ", ", name, " ", value);
   };
+  add("objective", options.objective());
   add("calibrate", options.calibrate());
   add("prior", options.prior() == "calibration" ? options.prior_calibration().name().empty()
                                                       ? "calibration"
@@ -269,7 +270,7 @@ std::string CalibrationText(const v1::Calibration& calibration, const Console& c
   AppendSection("Tool in the frame of the flange, base in that of the instrument",
                 FramesTable(report), &text);
   AppendSection("Parameters that stay at nominal", RedundanciesText(report), &text);
-  absl::StrAppend(&text, FindingsText(report));
+  absl::StrAppend(&text, FindingsText(calibration));
   AppendSection("Residuals", SetsTable(report.sets()), &text);
   AppendSection("Control rows against the mean of their own place in the fixture",
                 PlacesText(report), &text);

@@ -5,6 +5,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
+#include "client/cli/names.h"
 #include "client/cli/table.h"
 
 namespace truepose::cli {
@@ -49,12 +50,19 @@ std::string SelectionText(const v1::CalibrationReport& report) {
   return table.Text(kIndent);
 }
 
-std::string SuspectsText(const v1::CalibrationReport& report) {
+// As the user named it; with the number alone nobody knows from where it counts.
+std::string SessionText(const v1::Calibration& calibration, int session) {
+  if (session < 0 || session >= calibration.sessions_size()) return absl::StrCat("#", session);
+  return ShortName(calibration.sessions(session));
+}
+
+std::string SuspectsText(const v1::Calibration& calibration) {
+  const v1::CalibrationReport& report = calibration.report();
   if (report.suspects_size() == 0) return "";
-  Table table({{"session"}, {"row"}, {"weight"}, {"reason", Align::kLeft}});
+  Table table({{"session", Align::kLeft}, {"row"}, {"weight"}, {"reason", Align::kLeft}});
   for (int i = 0; i < std::min(report.suspects_size(), kMostRows); ++i) {
     const v1::Suspect& suspect = report.suspects(i);
-    table.Add({absl::StrCat(suspect.session() + 1), absl::StrCat(suspect.row()),
+    table.Add({SessionText(calibration, suspect.session()), absl::StrCat(suspect.row()),
                Fixed(suspect.weight(), 2), suspect.reason()});
   }
   return absl::StrCat(table.Text(kIndent), MoreText(report.suspects_size(), kMostRows));
@@ -77,13 +85,15 @@ std::string CorrelationsText(const v1::CalibrationReport& report) {
 
 }  // namespace
 
-std::string FindingsText(const v1::CalibrationReport& report) {
+std::string FindingsText(const v1::Calibration& calibration) {
+  const v1::CalibrationReport& report = calibration.report();
   std::string text;
   AppendSection("Number of parameters", CountsText(report.counts()), &text);
   AppendSection("Choice of parameters and effects, by the calibration rows", SelectionText(report),
                 &text);
   AppendSection("Parameters that the readings hardly tell apart", CorrelationsText(report), &text);
-  AppendSection("Readings that do not fit the others", SuspectsText(report), &text);
+  AppendSection("Readings that do not fit the others (rows count from 0, as in --split)",
+                SuspectsText(calibration), &text);
   return text;
 }
 

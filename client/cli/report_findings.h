@@ -7,8 +7,9 @@
 
 namespace truepose::cli {
 
-// Sections, each with a blank line before it; empty ones are left out.
-std::string FindingsText(const v1::CalibrationReport& report);
+// Sections, each with a blank line before it; empty ones are left out. Suspects stand with the
+// session as it was named and the row as sessions and --split count it, from 0.
+std::string FindingsText(const v1::Calibration& calibration);
 
 // Contact readings against their own places; "" without a fixture.
 std::string PlacesText(const v1::CalibrationReport& report);

@@ -13,12 +13,25 @@ using ::testing::StartsWith;
 
 // Every leaf of the command tree.
 const std::vector<std::vector<std::string>>& Commands() {
-  static const auto* commands = new std::vector<std::vector<std::string>>{
-      {"robot", "add"},    {"robot", "list"},   {"robot", "show"},       {"session", "import"},
-      {"session", "list"}, {"session", "show"}, {"calibrate"},           {"evaluate"},
-      {"compensate"},      {"job", "watch"},    {"job", "list"},         {"job", "cancel"},
-      {"simulate"},        {"model"},           {"calibration", "list"}, {"calibration", "show"},
-      {"version"}};
+  static const auto* commands =
+      new std::vector<std::vector<std::string>>{{"robot", "add"},
+                                                {"robot", "list"},
+                                                {"robot", "show"},
+                                                {"session", "import"},
+                                                {"session", "list"},
+                                                {"session", "show"},
+                                                {"calibrate"},
+                                                {"evaluate"},
+                                                {"compensate"},
+                                                {"job", "watch"},
+                                                {"job", "list"},
+                                                {"job", "cancel"},
+                                                {"simulate"},
+                                                {"model"},
+                                                {"calibration", "list"},
+                                                {"calibration", "show"},
+                                                {"calibration", "convert"},
+                                                {"version"}};
   return *commands;
 }
 
@@ -31,6 +44,16 @@ TEST(Help, OfEveryCommandHasAnExample) {
     EXPECT_THAT(ran.out, HasSubstr("Example")) << command.front();
     EXPECT_THAT(ran.out, HasSubstr("--json")) << command.front();
     EXPECT_EQ(ran.err, "");
+  }
+}
+
+// Would catch a group of commands that ends with the text of the whole program.
+TEST(Help, OfAGroupIsAboutTheGroup) {
+  for (const char* group : {"reproduce", "robot", "session", "job", "calibration"}) {
+    const Ran ran = RunCli({group, "--help"});
+    EXPECT_EQ(ran.code, 0);
+    EXPECT_THAT(ran.out, ::testing::Not(HasSubstr("Exit codes"))) << group;
+    EXPECT_THAT(ran.out, HasSubstr("Example")) << group;
   }
 }
 

@@ -215,6 +215,73 @@ TEST_F(LocalTest, RequireCompleteFailsWhereReadingsDoNotSuffice) {
   EXPECT_EQ(ran.out, "");
 }
 
+// Would catch an objective that other estimators take and ignore.
+TEST_F(LocalTest, AnObjectiveNeedsTheSimplex) {
+  const Ran ran = Calibrate({"--objective", "e_op"});
+  EXPECT_EQ(ran.code, 3);
+  EXPECT_THAT(ran.err, HasSubstr("--objective: found 'e_op' with estimator levenberg_marquardt, "
+                                 "expected estimator simplex"));
+}
+
+// Would catch a parser's complaint about a file that was never JSON.
+TEST_F(LocalTest, APriorThatIsNoCalibrationIsToldWhatMayStandThere) {
+  for (const std::string& prior : {session_, folder_.Path("none.json")}) {
+    const Ran ran = Calibrate({"--prior", prior});
+    EXPECT_EQ(ran.code, 3);
+    EXPECT_THAT(ran.err, HasSubstr("--prior: found '" + prior + "'"));
+    EXPECT_THAT(ran.err, HasSubstr("expected none, tolerance, or a file with the JSON"));
+  }
+}
+
+// Would catch a warning that says the opposite of what the options do.
+TEST_F(LocalTest, ColumnsThatOptionsNameAreNotCalledUnused) {
+  std::vector<std::string> lines = absl::StrSplit(folder_.Read("session.csv"), '\n');
+  lines[0] += ",day,shift,note";
+  for (size_t i = 1; i + 1 < lines.size(); ++i) lines[i] += i % 2 ? ",1,a,x" : ",2,b,x";
+  const std::string session = folder_.Write("named.csv", absl::StrJoin(lines, "\n"));
+  const Ran ran = Calibrate({"--split", "column:day=2", "--group", "shift"}, session);
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.err, HasSubstr("kept but not used: note\n"));
+}
+
+// Would catch contacts without their fixture that are told as an empty session.
+TEST_F(LocalTest, ContactsAskForTheirFixture) {
+  const std::string joints = "q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad";
+  for (const char* column : {"feature", "hole"}) {
+    const std::string session =
+        folder_.Write("contacts.csv", joints + "," + column + "\n0,0,0,0,0,0,a\n1,0,0,0,0,0,a\n");
+    const Ran ran = Calibrate({}, session);
+    EXPECT_EQ(ran.code, 3);
+    EXPECT_THAT(ran.err, HasSubstr("--fixture FILE"));
+  }
+}
+
+// A round through another model and back into evaluate: would catch a file that other commands
+// refuse, and a prediction that moved.
+TEST_F(LocalTest, AConvertedCalibrationServesAsTheOriginal) {
+  const std::string calibration = WriteCalibration(), converted = folder_.Path("dh.json");
+  const Ran ran = RunCli({"calibration", "convert", calibration, "--robot", robot_, "--model",
+                          "extended_dh", "--output", converted});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("in extended_dh\n"));
+  EXPECT_THAT(ran.out, HasSubstr("converted from modified_incremental"));
+  const auto evaluate = [&](const std::string& file) {
+    const Ran evaluated = RunCli({"evaluate", "--local", "--robot", robot_, "--calibration", file,
+                                  "--session", session_, "--json"});
+    EXPECT_EQ(evaluated.code, 0) << evaluated.err;
+    return std::stod(At(OneObject(evaluated.out), "set.after.position_mm.rms"));
+  };
+  EXPECT_NEAR(evaluate(converted), evaluate(calibration), 1e-6);
+  const Ran json = RunCli({"calibration", "convert", calibration, "--robot", robot_, "--model",
+                           "incremental", "--json"});
+  EXPECT_EQ(At(OneObject(json.out), "report.model"), "incremental");
+  const Ran unknown =
+      RunCli({"calibration", "convert", calibration, "--robot", robot_, "--model", "dh"});
+  EXPECT_EQ(unknown.code, 3);
+  EXPECT_THAT(unknown.err, HasSubstr("--model: found 'dh'"));
+  EXPECT_EQ(RunCli({"calibration", "convert", calibration, "--model", "dh"}).code, 2);
+}
+
 // A robot without errors can't be improved: the report says not to apply, names no way on to
 // compensation, and compensate refuses the file.
 TEST_F(LocalTest, DoNotApplyDoesNotReachARobot) {

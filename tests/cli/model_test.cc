@@ -3,6 +3,7 @@
 
 #include "core/models/build_model.h"
 #include "tests/cli/run.h"
+#include "tests/cli/temp_folder.h"
 
 namespace truepose::cli {
 namespace {
@@ -21,6 +22,21 @@ TEST(Model, ShowsLinksCountsAndRedundancies) {
   EXPECT_THAT(ran.out, HasSubstr("complete, 4R + 2P + 6          30            30"));
   EXPECT_THAT(ran.out, HasSubstr("internal, 4R + 2P - 6          18            18"));
   EXPECT_THAT(ran.out, HasSubstr("  dq1 = a motion of the base frame: dropped dq1\n"));
+}
+
+// Would catch a URDF chain whose ends can't be said here as they can to the other commands.
+TEST(Model, TakesTheEndsOfAUrdf) {
+  const TempFolder folder;
+  const std::string urdf = folder.Path("ur10.urdf");
+  ASSERT_EQ(
+      RunCli({"robot", "export", Example("ur10.yaml"), "--local", "--format", "urdf", "-o", urdf})
+          .code,
+      0);
+  const Ran whole = RunCli({"model", urdf, "--json"});
+  ASSERT_EQ(whole.code, 0) << whole.err;
+  const Ran unknown = RunCli({"model", urdf, "--urdf-tip", "nowhere"});
+  EXPECT_EQ(unknown.code, 3);
+  EXPECT_THAT(unknown.err, HasSubstr("nowhere"));
 }
 
 // Would catch a kind that the command knows and the core does not, and the other way round.

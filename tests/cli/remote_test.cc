@@ -137,6 +137,41 @@ TEST_F(RemoteTest, ListsAndShowsWhatIsThere) {
   EXPECT_THAT(Remote({"job", "watch", job}).out, HasSubstr("succeeded, calibration ur10#1"));
 }
 
+// Would catch a list in which a calibration of one joint looks like one of the robot, and a prior
+// that was not found being sought among robots.
+TEST_F(RemoteTest, PartialCalibrationsAreToldFromWholeOnes) {
+  AddRobot();
+  Import();
+  Calibrate();
+  const std::vector<std::string> partial = {"calibrate",   "--robot", "ur10",    "--session", kUuid,
+                                            "--calibrate", "dq3",     "--prior", "ur10#1"};
+  ASSERT_EQ(Remote(partial).code, 0);
+  const std::string list = Remote({"calibration", "list"}).out;
+  EXPECT_THAT(list, HasSubstr("ur10#2       dq3 from ur10#1"));
+  EXPECT_THAT(list, HasSubstr("ur10#1       all  "));
+  std::vector<std::string> missing = partial;
+  missing.back() = "ur10#9";
+  const Ran ran = Remote(missing);
+  EXPECT_EQ(ran.code, 6);
+  EXPECT_THAT(ran.err, HasSubstr("truepose calibration list"));
+  EXPECT_THAT(ran.err, ::testing::Not(HasSubstr("truepose robot list")));
+}
+
+// A stored one by its name, without a file: the same as of its file.
+TEST_F(RemoteTest, ConvertsWhatIsStored) {
+  AddRobot();
+  Import();
+  Calibrate();
+  const std::string file = folder_.Path("stored.json");
+  ASSERT_EQ(Remote({"calibration", "show", "ur10#1", "--output", file}).code, 0);
+  const Ran stored =
+      Remote({"calibration", "convert", "ur10#1", "--model", "zhuang_roth", "--json"});
+  ASSERT_EQ(stored.code, 0) << stored.err;
+  EXPECT_EQ(stored.out, RunCli({"calibration", "convert", file, "--robot", robot_, "--model",
+                                "zhuang_roth", "--json"})
+                            .out);
+}
+
 // Would catch a server's calibration that local commands can't use, or that gives other bits there.
 TEST_F(RemoteTest, ShownCalibrationWorksLocally) {
   AddRobot();

@@ -128,6 +128,37 @@ std::string Text(bool colour) {
 // rounding.
 TEST(CalibrationText, IsWhatAPersonReads) { EXPECT_EQ(Text(false), kText); }
 
+// Would catch a deviation of rotations that nobody measured, such as the start value's.
+TEST(CalibrationText, SpeaksOfNoRotationWhereNoneWasMeasured) {
+  v1::Calibration calibration = Calibration();
+  calibration.mutable_report()->mutable_summary()->clear_model_sd_rotation_deg();
+  std::ostringstream out, err;
+  const std::string text = CalibrationText(calibration, Console{out, err});
+  EXPECT_NE(text.find("unexplained per axis: 0.284 mm; weighted"), std::string::npos) << text;
+}
+
+// Would catch sessions counted from another number than rows: the session stands by name.
+TEST(CalibrationText, NamesASuspectsSessionAndCountsRowsFromZero) {
+  v1::Calibration calibration = Calibration();
+  calibration.add_sessions("monday.csv");
+  calibration.add_sessions("sessions/11111111-2222-4333-8444-555555555555");
+  for (int session : {0, 1}) {
+    v1::Suspect* suspect = calibration.mutable_report()->add_suspects();
+    suspect->set_session(session);
+    suspect->set_row(7);
+    suspect->set_reason("off");
+  }
+  std::ostringstream out, err;
+  const std::string text = CalibrationText(calibration, Console{out, err});
+  EXPECT_NE(text.find("(rows count from 0, as in --split)"), std::string::npos) << text;
+  EXPECT_NE(text.find("  monday.csv                              7    0.00  off\n"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("  11111111-2222-4333-8444-555555555555    7    0.00  off\n"),
+            std::string::npos)
+      << text;
+}
+
 // Would catch rotation figures of zero where none was measured, and a line for a set that is not
 // there.
 TEST(SetsTable, LeavesOutWhatWasNotMeasured) {

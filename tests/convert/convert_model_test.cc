@@ -166,6 +166,22 @@ TEST(ConvertModel, PointsAtTwoPlacements) {
   ExpectSamePrediction(input, calibration, converted, 3);
 }
 
+// A partial recalibration: the directions that it held stay without variance, also where the other
+// model spreads what was found over more names (to second order dq3 moves all the others), and the
+// report says so.
+TEST(ConvertModel, HeldDirectionsStayHeld) {
+  v1::CalibrationInput input = SampleInput(81);
+  *input.mutable_options()->mutable_prior_calibration() = PriorOf(Calibrated(input));
+  input.mutable_options()->set_prior("calibration");
+  input.mutable_options()->set_calibrate("dq3");
+  const v1::Calibration calibration = Calibrated(input);
+  ASSERT_EQ(calibration.report().parameters().identified(), 13);
+  const v1::Calibration converted = Converted(input, calibration, "incremental");
+  ExpectSamePrediction(input, calibration, converted, 6);
+  EXPECT_GT(converted.report().parameters().identified(), 13);
+  EXPECT_THAT(converted.report().warnings(), ::testing::Contains(HasSubstr("has rank 13")));
+}
+
 TEST(ConvertModel, RefusesWhatItCanNot) {
   const v1::CalibrationInput input = SampleInput(61);
   v1::Calibration calibration = Calibrated(input);

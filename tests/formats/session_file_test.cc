@@ -102,6 +102,15 @@ TEST(SessionFileTest, KeepsAndListsUnknownColumns) {
       ElementsAre("folder/s.csv: columns that are kept but not used: hole, goal_x_m, time_s"));
 }
 
+// Catches: a warning of a column that another option names, and one that hides the others.
+TEST(SessionFileTest, ColumnsInUseAreNotCalledUnused) {
+  const auto file = ParseSessionFile("hole,q1_rad,q2_rad,time_s\n0,1,2,0.5\n", "s.csv",
+                                     RobotOf("RR"), {"", {"hole"}});
+  ASSERT_TRUE(file.ok()) << file.status();
+  EXPECT_THAT(file->warnings, ElementsAre("s.csv: columns that are kept but not used: time_s"));
+  EXPECT_THAT(file->session.extra_columns(), ElementsAre("hole", "time_s"));
+}
+
 // Catches: a repeated log line that counts twice, rows numbered with gaps after it.
 TEST(SessionFileTest, KeepsRowsThatAreEqualInEveryColumnOnce) {
   const SessionFile file = Parse("q1_rad,q2_rad,note\n1,2,a\n1,2,b\n 1,2,a\n3,4,a\n1,2,b\n");

@@ -26,6 +26,9 @@ constexpr char kFooter[] =
   random:SEED[:FRACTION]    FRACTION (0.5) of the rows, drawn with this seed
   column:NAME=VALUE         all but the rows with this value
 
+Rows of suspects and residuals count from 0 as well, in the text and with --json, where sessions
+count from 0 in the order they were given.
+
 )";
 
 constexpr char kExamples[] =
@@ -36,6 +39,8 @@ constexpr char kExamples[] =
     --output ur10.calibration.json
   truepose calibrate --local --robot arm.yaml --session points.csv --observe point --json
   truepose calibrate --local --robot ur10.yaml --session series_D.csv --split even-odd --effects auto
+  truepose calibrate --local --robot arm.yaml --session dime.csv --split first:40 \
+    --estimator simplex --objective e_op
   truepose calibrate --local --robot panda.yaml --session panda_3.csv --fixture sockets.yaml \
     --feature-column hole --split even-odd
   truepose calibrate --local --robot ur10.yaml --session after_repair.csv --calibrate dq3 \

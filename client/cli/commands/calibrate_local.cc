@@ -9,6 +9,7 @@
 #include "client/cli/outcome.h"
 #include "client/cli/progress.h"
 #include "convert/run.h"
+#include "core/assessment/split.h"
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
 
@@ -33,12 +34,21 @@ absl::StatusOr<formats::RobotFile> LoadRobotAndOptions(CalibrateOptions* options
   return robot;
 }
 
+// Columns that an option names; ValidateOptions has seen the split.
+std::vector<std::string> ColumnsInUse(const v1::CalibrationOptions& options) {
+  std::vector<std::string> columns = {options.feature_column(), options.group_column()};
+  const auto split = ParseSplit(options.split());
+  if (split.ok()) columns.push_back(split->column);
+  return columns;
+}
+
 absl::StatusOr<v1::CalibrationInput> LoadInput(const Invocation& invocation,
                                                CalibrateOptions options) {
   TRUEPOSE_ASSIGN_OR_RETURN(const formats::RobotFile robot, LoadRobotAndOptions(&options));
   TRUEPOSE_ASSIGN_OR_RETURN(
       std::vector<v1::SessionInput> sessions,
-      LoadSessions(options.sessions, robot.nominal, options.euler, invocation.console));
+      LoadSessions(options.sessions, robot.nominal,
+                   {options.euler, ColumnsInUse(options.calibration)}, invocation.console));
   v1::CalibrationInput input;
   input.set_robot(RobotName(robot.robot_id));
   input.set_nominal_revision(LocalRevision(robot.nominal));

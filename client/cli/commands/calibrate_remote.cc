@@ -59,7 +59,9 @@ absl::StatusOr<v1::CalibrationJob> CreateJob(const client::Client& client,
               "--prior", typed,
               "none, tolerance, a file of --output, or a calibration such as ur10#1");
         get.set_name(*name);
-        return client.GetCalibration(get);
+        auto calibration = client.GetCalibration(get);
+        if (calibration.ok()) return calibration;
+        return WithHint(calibration.status(), absl::StatusCode::kNotFound, kCalibrationHint);
       },
       [&] { return NominalOf(client, request.sessions(0)); }, request.mutable_options()));
   return client.CreateCalibrationJob(request);

@@ -1,4 +1,4 @@
-// truepose calibration list|show; export is a file of its own
+// truepose calibration list|show; export and convert are files of their own
 #include <memory>
 
 #include "absl/strings/str_cat.h"
@@ -22,10 +22,19 @@ const v1::SetReport& JudgingSet(const v1::Sets& sets) {
   return sets.control().poses() > 0 ? sets.control() : sets.complete();
 }
 
+// "all", or of a partial one what was found anew and from which: "dq3 from ur10#1".
+std::string PartText(const v1::CalibrationOptions& options) {
+  const std::string part = options.calibrate().empty() ? "all" : options.calibrate();
+  if (options.prior() != "calibration") return part;
+  const std::string& prior = options.prior_calibration().name();
+  return absl::StrCat(part, " from ", prior.empty() ? "a file" : ShortName(prior));
+}
+
 std::string CalibrationsTable(const v1::ListCalibrationsResponse& list) {
   if (list.calibrations().empty())
     return "No calibrations. Next: truepose calibrate --robot NAME --session UUID\n";
   Table table({{"calibration", Align::kLeft},
+               {"calibrated", Align::kLeft},
                {"split", Align::kLeft},
                {"rows"},
                {"rms mm before"},
@@ -35,11 +44,11 @@ std::string CalibrationsTable(const v1::ListCalibrationsResponse& list) {
   for (const v1::Calibration& calibration : list.calibrations()) {
     const v1::CalibrationReport& report = calibration.report();
     const v1::SetReport& set = JudgingSet(report.sets());
-    table.Add({ShortName(calibration.name()), report.split().empty() ? "none" : report.split(),
-               absl::StrCat(set.poses()), Fixed(set.before().position_mm().rms(), 3),
-               Fixed(set.after().position_mm().rms(), 3),
-               absl::StrReplaceAll(report.verdict(), {{"_", " "}}),
-               TimeText(calibration.create_time())});
+    table.Add(
+        {ShortName(calibration.name()), PartText(calibration.options()),
+         report.split().empty() ? "none" : report.split(), absl::StrCat(set.poses()),
+         Fixed(set.before().position_mm().rms(), 3), Fixed(set.after().position_mm().rms(), 3),
+         absl::StrReplaceAll(report.verdict(), {{"_", " "}}), TimeText(calibration.create_time())});
   }
   return table.Text();
 }
@@ -136,6 +145,7 @@ void AddCalibration(const Command& root) {
       .Run(Command::Reach::kRemote,
            [=](const Invocation& invocation) { return Show(invocation, *name, *output); });
   AddCalibrationExport(calibration);
+  AddCalibrationConvert(calibration);
 }
 
 }  // namespace truepose::cli

@@ -18,6 +18,7 @@ void AddCompensate(const Command& root);
 void AddJob(const Command& root);
 void AddCalibration(const Command& root);
 void AddCalibrationExport(const Command& calibration);
+void AddCalibrationConvert(const Command& calibration);
 void AddSimulate(const Command& root);
 void AddModel(const Command& root);
 void AddReproduce(const Command& root);

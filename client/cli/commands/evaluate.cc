@@ -78,7 +78,8 @@ absl::Status EvaluateLocally(const Invocation& invocation, const Options& option
   TRUEPOSE_RETURN_IF_ERROR(SetFixture(options, &calibration));
   TRUEPOSE_ASSIGN_OR_RETURN(
       const std::vector<v1::SessionInput> sessions,
-      LoadSessions({options.session}, robot.nominal, options.euler, invocation.console));
+      LoadSessions({options.session}, robot.nominal,
+                   {options.euler, {calibration.options().feature_column()}}, invocation.console));
   TRUEPOSE_ASSIGN_OR_RETURN(
       v1::Evaluation evaluation,
       convert::RunEvaluation(robot.nominal, calibration, sessions[0], observe));

@@ -15,14 +15,21 @@
 namespace truepose::cli {
 namespace {
 
+// A file that is no calibration is told as a wrong --prior with all that may stand there: what a
+// JSON parser stumbled over says nothing to somebody who named a session.
+absl::StatusOr<v1::Calibration> LoadPrior(const std::string& path) {
+  absl::StatusOr<v1::Calibration> calibration = LoadCalibration(path);
+  if (calibration.ok()) return calibration;
+  const std::vector<Fault> faults = FaultsOf(calibration.status());
+  return FaultStatus(
+      "--prior", absl::StrCat("'", path, "'", faults.empty() ? "" : ": " + faults[0].found),
+      "none, tolerance, or a file with the JSON of a calibration (calibrate --output)");
+}
+
 absl::StatusOr<v1::Calibration> PriorCalibrationOf(const std::string& text,
                                                    const FetchCalibration& fetch) {
   std::error_code error;
-  if (std::filesystem::is_regular_file(text, error) || !fetch) {
-    absl::StatusOr<v1::Calibration> calibration = LoadCalibration(text);
-    if (!calibration.ok()) return RenameFields(calibration.status(), {{"calibration", "--prior"}});
-    return calibration;
-  }
+  if (std::filesystem::is_regular_file(text, error) || !fetch) return LoadPrior(text);
   return fetch(text);
 }
 
@@ -77,6 +84,8 @@ void AddIdentificationOptions(const Command& command, IdentificationOptions* opt
               "modified_incremental (default), incremental, extended_dh or zhuang_roth")
       .Option("--estimator", "NAME", &options->estimator,
               "levenberg_marquardt (default), linear_iteration, kalman or simplex")
+      .Option("--objective", "NAME", &options->objective,
+              "Of --estimator simplex: least_squares (default) or e_op, the chapter's mean error")
       .Option("--select", "RULE", &options->select,
               "Choose parameters: none (default), forward, bic or cross_validation")
       .Option("--effects", "LIST", &options->effects,
@@ -99,23 +108,18 @@ void AddIdentificationOptions(const Command& command, IdentificationOptions* opt
       .Option("--pose-matching", "FORM", &options->pose_matching,
               "task_space (default) or joint_space: residuals in joints, Eqs. 8 and 9")
       .Option("--joints", "SOURCE", &options->joints,
-              "measured, commanded, or both: run both ways and keep the better");
+              "measured or commanded alone, or both: run both ways and keep the better; default: "
+              "measured where there are, and the report compares them");
 }
 
 Renaming IdentificationNames() {
-  return {{"options.model", "--model"},
-          {"options.estimator", "--estimator"},
-          {"options.select", "--select"},
-          {"options.effects", "--effects"},
-          {"options.loss", "--loss"},
-          {"options.calibrate", "--calibrate"},
-          {"options.prior_calibration", "--prior"},
-          {"options.prior", "--prior"},
-          {"prior.", "--prior: "},
-          {"options.fixture", "--fixture"},
-          {"options.feature_column", "--feature-column"},
-          {"options.joint_sd", "--joint-sd-deg"},
-          {"options.pose_matching", "--pose-matching"},
+  return {{"options.model", "--model"},           {"options.estimator", "--estimator"},
+          {"options.objective", "--objective"},   {"options.select", "--select"},
+          {"options.effects", "--effects"},       {"options.loss", "--loss"},
+          {"options.calibrate", "--calibrate"},   {"options.prior_calibration", "--prior"},
+          {"options.prior", "--prior"},           {"prior.", "--prior: "},
+          {"options.fixture", "--fixture"},       {"options.feature_column", "--feature-column"},
+          {"options.joint_sd", "--joint-sd-deg"}, {"options.pose_matching", "--pose-matching"},
           {"options.joints", "--joints"}};
 }
 
@@ -124,6 +128,7 @@ absl::Status WriteIdentificationOptions(const IdentificationOptions& options,
                                         v1::CalibrationOptions* message) {
   message->set_model(options.model);
   message->set_estimator(options.estimator);
+  message->set_objective(options.objective);
   message->set_select(options.select);
   message->set_effects(options.effects);
   message->set_loss(options.loss);

@@ -15,7 +15,7 @@
 namespace truepose::cli {
 
 struct IdentificationOptions {
-  std::string model, estimator, select, effects, loss, calibrate, prior;
+  std::string model, estimator, objective, select, effects, loss, calibrate, prior;
   std::string fixture, feature_column, joint_sd_deg, pose_matching, joints;
 };
 

@@ -21,6 +21,7 @@ constexpr char kIndent[] = "  ";
 struct Options {
   std::string robot;
   std::string model = "modified_incremental";
+  formats::UrdfEnds ends;
 };
 
 struct LinkNames {
@@ -86,7 +87,7 @@ std::string Text(const v1::ModelDescription& model, const formats::RobotFile& fi
 }
 
 absl::Status Describe(const Invocation& invocation, const Options& options) {
-  TRUEPOSE_ASSIGN_OR_RETURN(const formats::RobotFile file, LoadRobot(options.robot));
+  TRUEPOSE_ASSIGN_OR_RETURN(const formats::RobotFile file, LoadRobot(options.robot, options.ends));
   const auto model = convert::RunModelDescription(file.nominal, options.model);
   if (!model.ok()) return RenameFields(model.status(), {{"options.model", "--model"}});
   return Reply(invocation, *model, [&] { return Text(*model, file); });
@@ -100,11 +101,14 @@ void AddModel(const Command& root) {
       .Required("FILE", "", &options->robot, "Robot file")
       .Option("--model", "KIND", &options->model,
               "modified_incremental, incremental, zhuang_roth or extended_dh")
+      .Option("--urdf-base", "LINK", &options->ends.base, kUrdfBaseHelp)
+      .Option("--urdf-tip", "LINK", &options->ends.tip, kUrdfTipHelp)
       .Footer(
           "Without readings: what full poses of the tool could identify at best. Lengths are\n"
           "errors in mm, angles in deg; docs/models.md says what each name means.\n\nExamples:\n"
           "  truepose model ur10.yaml\n"
           "  truepose model ur10.yaml --model extended_dh\n"
+          "  truepose model cell.urdf --urdf-base base_link --urdf-tip tool0\n"
           "  truepose model ur10.yaml --json")
       .Run(Command::Reach::kLocal,
            [options](const Invocation& invocation) { return Describe(invocation, *options); });

@@ -94,6 +94,9 @@ void AddSection11(const Command& reproduce) {
 void AddReproduce(const Command& root) {
   const Command reproduce =
       root.Add("reproduce", "Run the examples of Fassi, Legnani, Tosi and Omodei's chapter");
+  reproduce.Footer(
+      "Examples:\n  truepose reproduce table2\n  truepose reproduce table3\n"
+      "  truepose reproduce section11 --seeds 3");
   AddTable2(reproduce);
   reproduce.Add("table3", "The parameters of the Stanford arm in every model")
       .Footer("Example:\n  truepose reproduce table3")

@@ -37,7 +37,7 @@ absl::StatusOr<v1::SessionInput> Load(const Invocation& invocation, const Option
   const v1::Nominal& nominal = robot.nominal_revision().nominal();
   TRUEPOSE_ASSIGN_OR_RETURN(
       std::vector<v1::SessionInput> sessions,
-      LoadSessions({options.file}, nominal, options.euler, invocation.console));
+      LoadSessions({options.file}, nominal, {options.euler}, invocation.console));
   TRUEPOSE_RETURN_IF_ERROR(
       CheckLimits(nominal, sessions[0], options.strict_limits, invocation.console));
   v1::Session& session = *sessions[0].mutable_session();
