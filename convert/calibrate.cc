@@ -6,111 +6,16 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "convert/digest.h"
-#include "convert/frames.h"
-#include "convert/options.h"
-#include "convert/readings.h"
+#include "convert/prepared_calibration.h"
 #include "convert/repeatability.h"
 #include "convert/report.h"
-#include "convert/robot.h"
 #include "convert/run.h"
-#include "core/assessment/split.h"
+#include "convert/torques.h"
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
 
 namespace truepose::convert {
 namespace {
-
-using Sessions = std::vector<const v1::SessionInput*>;
-
-Sessions SessionsOf(const v1::CalibrationInput& input) {
-  Sessions sessions;
-  for (const v1::SessionInput& session : input.sessions()) sessions.push_back(&session);
-  return sessions;
-}
-
-Hooks HooksFrom(const RunHooks& hooks) {
-  Hooks core;
-  core.is_cancelled = hooks.is_cancelled;
-  if (!hooks.on_progress) return core;
-  core.on_progress = [on_progress = hooks.on_progress](const Progress& progress) {
-    v1::JobProgress message;
-    message.set_stage(progress.stage);
-    message.set_fraction(progress.fraction);
-    message.set_iteration(progress.iteration);
-    message.set_cost(progress.cost);
-    on_progress(message);
-  };
-  return core;
-}
-
-// The tool that the target is near to: the one named, else the robot file's first as a mere start
-// value.
-absl::StatusOr<std::optional<Pose>> NominalTool(const v1::Nominal& nominal,
-                                                const std::string& name) {
-  if (name.empty()) {
-    if (nominal.tools_size() == 0) return std::nullopt;
-    return PoseFrom(nominal.tools(0).pose());
-  }
-  TRUEPOSE_ASSIGN_OR_RETURN(const Pose X_FT, ToolByName(nominal, name, "options.nominal_tool"));
-  return X_FT;
-}
-
-// Base frames of an earlier calibration, by the names of their placements.
-std::vector<std::optional<Pose>> KnownBases(const v1::PriorCalibration& prior,
-                                            const std::vector<std::string>& placements) {
-  std::vector<std::optional<Pose>> known(placements.size());
-  for (const v1::FrameEstimate& frame : prior.frames()) {
-    for (size_t i = 0; i < placements.size(); ++i) {
-      if (frame.group() == v1::BASE && frame.name() == placements[i])
-        known[i] = PoseFrom(frame.pose());
-    }
-  }
-  return known;
-}
-
-// The earlier calibration's target, for calibrate = base without a tool that is named.
-std::optional<Pose> EarlierTool(const v1::CalibrationOptions& options) {
-  if (options.calibrate() != "base" || !options.nominal_tool().empty()) return std::nullopt;
-  for (const v1::FrameEstimate& frame : options.prior_calibration().frames())
-    if (frame.group() == v1::TOOL) return PoseFrom(frame.pose());
-  return std::nullopt;
-}
-
-// Roles of the usable readings, from the split of all rows.
-absl::StatusOr<std::vector<bool>> Roles(const Sessions& sessions, const ReadingsProblem& readings,
-                                        const v1::CalibrationOptions& options) {
-  TRUEPOSE_ASSIGN_OR_RETURN(const Split split, ParseSplit(options.split()));
-  std::vector<std::string> groups, values;
-  int rows = 0;
-  for (const v1::SessionInput* session : sessions) rows += session->readings_size();
-  if (!options.group_column().empty()) {
-    TRUEPOSE_ASSIGN_OR_RETURN(
-        groups, ColumnValues(sessions, options.group_column(), "options.group_column"));
-  }
-  if (split.rule == SplitRule::kColumn) {
-    TRUEPOSE_ASSIGN_OR_RETURN(values, ColumnValues(sessions, split.column, "options.split"));
-  }
-  TRUEPOSE_ASSIGN_OR_RETURN(const std::vector<bool> all, ApplySplit(split, rows, groups, values));
-  std::vector<bool> usable;
-  for (int position : readings.position) usable.push_back(all[position]);
-  return usable;
-}
-
-absl::Status CheckLimits(const v1::CalibrationInput& input, std::vector<std::string>* warnings) {
-  FaultList faults;
-  for (int i = 0; i < input.sessions_size(); ++i) {
-    const auto& readings = input.sessions(i).readings();
-    for (const std::string& warning :
-         LimitWarnings(input.nominal(), {readings.begin(), readings.end()})) {
-      const std::string prefix =
-          input.sessions_size() > 1 ? absl::StrCat("session ", i + 1, ": ") : "";
-      warnings->push_back(prefix + warning);
-      faults.Add(absl::StrCat("sessions[", i, "].readings"), warning,
-                 "joints within their limits (strict_limits)");
-    }
-  }
-  return input.options().strict_limits() ? faults.ToStatus() : absl::OkStatus();
-}
 
 void WarnOfFrames(v1::CalibrationReport* report) {
   for (const v1::FrameEstimate& frame : report->frames()) {
@@ -129,6 +34,7 @@ v1::Calibration MessageOf(const v1::CalibrationInput& input, const CalibrationRe
     calibration.add_sessions(session.session().name());
   FillParameters(result, &calibration);
   *calibration.mutable_report() = ReportOf(result, readings, X_FT);
+  ShowEarlierFrames(input.options().prior_calibration(), calibration.mutable_report());
   *calibration.mutable_options() = input.options();
   for (v1::RowResidual& residual :
        ResidualsOf(result.complete, readings.rows, readings.problem.calibrates)) {
@@ -162,59 +68,62 @@ void WarnOfTemperatures(const v1::CalibrationInput& input, const ReadingsProblem
                                     "the session for it"));
 }
 
-void FillReport(const v1::CalibrationInput& input, const ReadingsProblem& readings,
-                const std::vector<std::string>& warnings, v1::CalibrationReport* report) {
+// Measured joints are used wherever there are any (readings.h).
+std::string ComparedText(const JointComparison& joints) {
+  const bool other = joints.other_rms_m < joints.used_rms_m;
+  return absl::StrFormat(
+      "%s joints fit better: RMS position of %d calibration rows %.3f mm with measured, %.3f mm "
+      "with commanded joints%s",
+      other ? "commanded" : "measured", joints.readings, kMmPerM * joints.used_rms_m,
+      kMmPerM * joints.other_rms_m,
+      other ? "; this result is of the measured ones, --joints commanded takes the others" : "");
+}
+
+void FillReport(const v1::CalibrationInput& input, const CalibrationResult& result,
+                const ReadingsProblem& readings, const std::vector<std::string>& warnings,
+                v1::CalibrationReport* report) {
   report->set_split(input.options().split());
   report->set_estimator(input.options().estimator().empty() ? "levenberg_marquardt"
                                                             : input.options().estimator());
   report->set_joints_used(readings.joints_used);
+  if (result.joints) report->set_joints_compared(ComparedText(*result.joints));
   for (const std::string& warning : readings.warnings) report->add_warnings(warning);
   for (const std::string& warning : warnings) report->add_warnings(warning);
   WarnOfFrames(report);
   WarnOfTemperatures(input, readings, report);
 }
 
-// The options' own faults and the robot's, at once.
-absl::Status CheckInput(const v1::CalibrationInput& input) {
+// The faults of a run that failed, and what may be behind them.
+absl::Status WithHints(const absl::Status& status, const std::vector<std::string>& hints) {
+  if (hints.empty() || FaultsOf(status).empty()) return status;
   FaultList faults;
-  faults.AddAll(ValidateOptions(input.options()));
-  faults.AddAll(ValidateNominal(input.nominal()), "nominal.");
-  return faults.ToStatus();
+  faults.AddAll(status);
+  for (const std::string& hint : hints)
+    faults.Add("sessions", hint, "the units that the columns say");
+  return faults.ToStatus(status.code());
 }
 
 absl::StatusOr<v1::Calibration> RunOnce(const v1::CalibrationInput& input, const RunHooks& hooks) {
-  TRUEPOSE_RETURN_IF_ERROR(CheckInput(input));
-  TRUEPOSE_ASSIGN_OR_RETURN(const Robot robot, RobotFrom(input.nominal()));
-  const Sessions sessions = SessionsOf(input);
-  TRUEPOSE_ASSIGN_OR_RETURN(ReadingsProblem readings,
-                            ReadingsFrom(input.nominal(), robot, sessions, input.options()));
-  std::vector<std::string> warnings;
-  TRUEPOSE_RETURN_IF_ERROR(CheckLimits(input, &warnings));
-  readings.problem.robot = &robot;
-  TRUEPOSE_ASSIGN_OR_RETURN(readings.problem.calibrates,
-                            Roles(sessions, readings, input.options()));
-  TRUEPOSE_ASSIGN_OR_RETURN(readings.problem.X_FT_nominal,
-                            NominalTool(input.nominal(), input.options().nominal_tool()));
-  if (const auto earlier = EarlierTool(input.options())) readings.problem.X_FT_nominal = earlier;
-  TRUEPOSE_ASSIGN_OR_RETURN(const CalibrateOptions options, CalibrateOptionsFrom(input.options()));
-  readings.problem.X_MB_known =
-      KnownBases(input.options().prior_calibration(), readings.problem.placements);
-  const Hooks core_hooks = HooksFrom(hooks);
-  TRUEPOSE_ASSIGN_OR_RETURN(const CalibrationResult result,
-                            Calibrate(readings.problem, options, core_hooks));
+  TRUEPOSE_ASSIGN_OR_RETURN(const PreparedCalibration prepared, PrepareCalibration(input));
+  const ReadingsProblem& readings = prepared.readings;
+  const absl::StatusOr<CalibrationResult> calibrated =
+      Calibrate(readings.problem, prepared.options, CoreHooks(hooks));
+  if (!calibrated.ok()) return WithHints(calibrated.status(), prepared.hints);
+  const CalibrationResult& result = *calibrated;
+  std::vector<std::string> warnings = prepared.warnings;
+  if (const std::string warning = TorqueWarning(result.model); !warning.empty())
+    warnings.push_back(warning);
   v1::Calibration calibration = MessageOf(
       input, result, readings,
       input.options().nominal_tool().empty() ? std::nullopt : readings.problem.X_FT_nominal);
-  FillReport(input, readings, warnings, calibration.mutable_report());
-  FillRepeatability(sessions, readings, result, calibration.mutable_report());
+  FillReport(input, result, readings, warnings, calibration.mutable_report());
+  FillRepeatability(prepared.sessions, readings, result, calibration.mutable_report());
   return calibration;
 }
 
-// RMS position after calibration: of the control set, where there is one.
+// RMS position of the calibration rows: a choice by the control set would leave none to judge it.
 double JudgedRms(const v1::Calibration& calibration) {
-  const v1::Sets& sets = calibration.report().sets();
-  const v1::SetReport& set = sets.control().poses() > 0 ? sets.control() : sets.calibration();
-  return set.after().position_mm().rms();
+  return calibration.report().sets().calibration().after().position_mm().rms();
 }
 
 // Progress of one of two runs.
@@ -239,7 +148,8 @@ absl::StatusOr<v1::Calibration> RunBoth(const v1::CalibrationInput& input, const
   const bool measured_is_better = JudgedRms(measured) <= JudgedRms(commanded);
   v1::Calibration best = measured_is_better ? measured : commanded;
   best.mutable_report()->set_joints_compared(absl::StrFormat(
-      "%s joints fit better: RMS position %.3f mm with measured, %.3f mm with commanded joints",
+      "%s joints fit better: RMS position of the calibration rows %.3f mm with measured, %.3f mm "
+      "with commanded joints",
       measured_is_better ? "measured" : "commanded", JudgedRms(measured), JudgedRms(commanded)));
   return best;
 }

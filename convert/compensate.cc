@@ -8,6 +8,7 @@
 #include "convert/report.h"
 #include "convert/robot.h"
 #include "convert/run.h"
+#include "convert/torques.h"
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
 
@@ -163,6 +164,7 @@ absl::StatusOr<v1::CompensateResponse> RunCompensation(const v1::Nominal& nomina
   TRUEPOSE_ASSIGN_OR_RETURN(const CalibratedModel calibrated,
                             CalibratedModelFrom(robot, calibration));
   TRUEPOSE_RETURN_IF_ERROR(CheckVerdict(calibration));
+  TRUEPOSE_RETURN_IF_ERROR(CheckTorquesOfTargets(calibrated));
   TRUEPOSE_RETURN_IF_ERROR(CheckTargets(request, robot.joint_count()));
   TRUEPOSE_ASSIGN_OR_RETURN(const Pose X_FT, ToolOf(nominal, request.tool()));
   const Compensator compensator(robot, calibrated, X_FT, nominal.kind());

@@ -151,6 +151,7 @@ void AddFurtherOptions(const v1::CalibrationOptions& options, Lines* lines) {
   AddNumbers("joint_sd", options.joint_sd(), lines);
   AddText("pose_matching", options.pose_matching(), lines);
   AddText("joints", options.joints(), lines);
+  AddText("objective", options.objective(), lines);
 }
 
 void AddReading(const v1::Reading& reading, Lines* lines) {

@@ -1,12 +1,17 @@
+#include <algorithm>
 #include <optional>
+#include <string>
 #include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "convert/calibrated_model.h"
 #include "convert/frames.h"
 #include "convert/readings.h"
 #include "convert/report.h"
 #include "convert/robot.h"
 #include "convert/run.h"
+#include "convert/torques.h"
+#include "convert/usable_readings.h"
 #include "core/base/status_macros.h"
 
 namespace truepose::convert {
@@ -30,12 +35,38 @@ v1::Evaluation MessageOf(const EvaluationResult& result, const ReadingsProblem& 
   return evaluation;
 }
 
+// Parameters fit the joints that they were found with, offsets above all: "measured" or
+// "commanded", "" where the calibration was made with either, as rows had them.
+std::string JointsOf(const v1::Calibration& calibration) {
+  const std::string& asked = calibration.options().joints();
+  const std::string& used = calibration.report().joints_used();
+  if (asked == "measured" || asked == "commanded") return asked;
+  return asked == "both" || used == "commanded" ? used : "";
+}
+
+// The session's joints of that source; where it has none, those that it has, with a warning.
+std::string JointsFor(const v1::Calibration& calibration, const v1::SessionInput& session,
+                      std::string* warning) {
+  const std::string joints = JointsOf(calibration);
+  if (joints.empty()) return "";
+  const auto& rows = session.readings();
+  const bool there = std::any_of(rows.begin(), rows.end(), [&](const v1::Reading& row) {
+    return !(joints == "measured" ? row.joints_measured() : row.joints_commanded()).empty();
+  });
+  if (there) return joints;
+  *warning = absl::StrCat("the calibration was made with ", joints,
+                          " joints, which this session does not have: the others are used");
+  return "";
+}
+
 // How the calibration's sessions were read, for readings of the same kind: a fixture counts where
 // the session's rows name its features.
 v1::CalibrationOptions OptionsOf(const v1::Calibration& calibration,
-                                 const v1::SessionInput& session, v1::Observe observe) {
+                                 const v1::SessionInput& session, v1::Observe observe,
+                                 std::string* warning) {
   v1::CalibrationOptions options;
   options.set_observe(observe);
+  options.set_joints(JointsFor(calibration, session, warning));
   const std::string& column = calibration.options().feature_column();
   bool in_features = false;
   for (const v1::Reading& reading : session.readings())
@@ -57,9 +88,13 @@ absl::StatusOr<v1::Evaluation> RunEvaluation(const v1::Nominal& nominal,
   TRUEPOSE_ASSIGN_OR_RETURN(const Robot robot, RobotFrom(nominal));
   TRUEPOSE_ASSIGN_OR_RETURN(const CalibratedModel calibrated,
                             CalibratedModelFrom(robot, calibration));
-  TRUEPOSE_ASSIGN_OR_RETURN(
-      ReadingsProblem readings,
-      ReadingsFrom(nominal, robot, {&session}, OptionsOf(calibration, session, observe)));
+  std::string warning;
+  const v1::CalibrationOptions options = OptionsOf(calibration, session, observe, &warning);
+  TRUEPOSE_ASSIGN_OR_RETURN(ReadingsProblem readings,
+                            ReadingsFrom(nominal, robot, {&session}, options));
+  if (!warning.empty()) readings.warnings.push_back(warning);
+  TRUEPOSE_RETURN_IF_ERROR(CheckUsable({&session}, options, readings.rows.size()));
+  TRUEPOSE_RETURN_IF_ERROR(CheckTorquesOfReadings(calibrated, readings.problem.readings));
   readings.problem.robot = &robot;
   if (nominal.tools_size() > 0) readings.problem.X_FT_nominal = PoseFrom(nominal.tools(0).pose());
   TRUEPOSE_ASSIGN_OR_RETURN(

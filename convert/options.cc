@@ -41,6 +41,12 @@ const Names<Estimator>& Estimators() {
   return names;
 }
 
+const Names<SimplexObjective>& Objectives() {
+  static const Names<SimplexObjective> names = {{"least_squares", SimplexObjective::kLeastSquares},
+                                                {"e_op", SimplexObjective::kMeanPositionError}};
+  return names;
+}
+
 const Names<Loss>& Losses() {
   static const Names<Loss> names = {
       {"none", Loss::kNone}, {"huber", Loss::kHuber}, {"tukey", Loss::kTukey}};
@@ -78,6 +84,17 @@ void ReadModel(const std::string& name, CalibrateOptions* options, FaultList* fa
   options->model = Named(name, names, "options.model", faults);
 }
 
+// The other estimators have one objective, least squares, so even naming it is a mistake about what
+// the option does.
+void ReadSolver(const v1::CalibrationOptions& message, SolveOptions* solve, FaultList* faults) {
+  solve->estimator = Named(message.estimator(), Estimators(), "options.estimator", faults);
+  solve->simplex.objective = Named(message.objective(), Objectives(), "options.objective", faults);
+  if (message.objective().empty() || message.estimator() == "simplex") return;
+  faults->Add("options.objective",
+              absl::StrCat("'", message.objective(), "' with estimator ", Name(solve->estimator)),
+              "estimator simplex: the others know least squares alone");
+}
+
 void ReadSelect(const std::string& name, CalibrateOptions* options, FaultList* faults) {
   const Criterion criterion = Named(name, Criteria(), "options.select", faults);
   if (!criterion) return;
@@ -100,6 +117,9 @@ void ReadEffects(const std::string& text, CalibrateOptions* options, FaultList* 
     auto& groups = options->effect_groups;
     if (std::find(groups.begin(), groups.end(), group) == groups.end()) groups.push_back(group);
   }
+  if (options->effect_groups.empty())
+    faults->Add("options.effects", absl::StrCat("'", text, "', an empty list"),
+                "none, auto or a list of effects");
 }
 
 Eigen::MatrixXd SquareOf(const google::protobuf::RepeatedField<double>& values, int size) {
@@ -165,8 +185,7 @@ absl::StatusOr<CalibrateOptions> CalibrateOptionsFrom(const v1::CalibrationOptio
   FaultList faults;
   options.require_complete = message.require_complete();
   ReadModel(message.model(), &options, &faults);
-  options.identify.solve.estimator =
-      Named(message.estimator(), Estimators(), "options.estimator", &faults);
+  ReadSolver(message, &options.identify.solve, &faults);
   options.identify.loss = Named(message.loss(), Losses(), "options.loss", &faults);
   ReadSelect(message.select(), &options, &faults);
   ReadEffects(message.effects(), &options, &faults);

@@ -126,7 +126,7 @@ void CheckNoFixture(const Sessions& sessions, const v1::CalibrationOptions& opti
       if (row.feature().empty() || !ShowsNothingElse(row)) continue;
       return faults->Add(absl::StrCat("sessions[", s, "].readings[", row.row(), "].feature"),
                          absl::StrCat("'", row.feature(), "' without a fixture"),
-                         "the fixture that has it (options.fixture)");
+                         "the fixture that has it: --fixture FILE (options.fixture)");
     }
   }
 }

@@ -88,6 +88,18 @@ class Collector {
     return commanded ? row.joints_commanded() : row.joints_measured();
   }
 
+  // Commanded joints beside the measured ones that are used; none where one source is asked for.
+  Eigen::VectorXd OtherJointsOf(const v1::Reading& row) const {
+    if (settings_.joints != JointSource::kAny || row.joints_measured().empty() ||
+        row.joints_commanded().empty())
+      return {};
+    return robot_.joint_map().ToChain(VectorOf(row.joints_commanded()));
+  }
+
+  static Eigen::VectorXd VectorOf(const Numbers& numbers) {
+    return Eigen::Map<const Eigen::VectorXd>(numbers.data(), numbers.size());
+  }
+
   void Take(int s, const v1::Reading& row) {
     const int position = all_rows_++;
     const FeaturePlace* feature = settings_.FeatureOf(position);
@@ -104,16 +116,14 @@ class Collector {
       SetJoints(row, joints, &observation.reading);
       Place(s, row, observation, &observation.reading);
       Append(s, row.row(), position, std::move(observation.reading));
+      result_.problem.other_q.push_back(OtherJointsOf(row));
     }
   }
 
   void SetJoints(const v1::Reading& row, const Numbers& joints, Reading* reading) const {
-    const auto vector = [](const Numbers& numbers) {
-      return Eigen::Map<const Eigen::VectorXd>(numbers.data(), numbers.size());
-    };
-    reading->q = robot_.joint_map().ToChain(vector(joints));
+    reading->q = robot_.joint_map().ToChain(VectorOf(joints));
     reading->joint_sd = settings_.joint_sd;
-    reading->conditions.joint_torque = vector(row.joint_torques_nm());
+    reading->conditions.joint_torque = VectorOf(row.joint_torques_nm());
     if (row.has_temperature_c())
       reading->conditions.temperature_K = row.temperature_c() - mean_temperature_;
   }
@@ -137,6 +147,7 @@ class Collector {
 
   void Append(int s, int row, int position, Reading reading) {
     reading.id = static_cast<int>(result_.rows.size());
+    reading.row = position;
     result_.problem.readings.push_back(std::move(reading));
     result_.rows.push_back({s, row});
     result_.position.push_back(position);

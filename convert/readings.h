@@ -18,7 +18,8 @@ struct RowOf {
 };
 
 struct ReadingsProblem {
-  CalibrationProblem problem;  // robot not set; calibrates is empty
+  CalibrationProblem problem;  // robot not set; calibrates is empty; other_q has what was commanded
+                               // beside the measured joints, unless options.joints asks for one
   std::vector<RowOf> rows;     // of the readings
   std::vector<int> position;   // reading -> the place of its row among all rows of all sessions
   std::vector<std::string> warnings;

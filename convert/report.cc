@@ -44,18 +44,25 @@ struct NominalAndIdentified {
 
 // Values of a candidate of the calibration part. Corrections of frames are shown as coordinates of
 // the frame itself.
-NominalAndIdentified ValuesOf(const CalibrationResult& result, int candidate,
-                              const Pose& X_FT_nominal) {
-  const Estimate& estimate = result.identification.estimate;
+double ValueIn(const Estimate& estimate, int candidate) {
   const int bases = static_cast<int>(estimate.X_MB.size()),
             tools = static_cast<int>(estimate.X_FT.size());
   const int frame = candidate / kFrameParameters, index = candidate % kFrameParameters;
-  if (frame < bases) return {0, Coordinate(estimate.X_MB[frame], index)};
-  if (frame < bases + tools)
-    return {Coordinate(X_FT_nominal, index), Coordinate(estimate.X_FT[frame - bases], index)};
+  if (frame < bases) return Coordinate(estimate.X_MB[frame], index);
+  if (frame < bases + tools) return Coordinate(estimate.X_FT[frame - bases], index);
   const int rest = candidate - kFrameParameters * (bases + tools),
             offsets = static_cast<int>(estimate.offsets.size());
-  return {0, rest < offsets ? estimate.offsets(rest) : estimate.lambda(rest - offsets)};
+  return rest < offsets ? estimate.offsets(rest) : estimate.lambda(rest - offsets);
+}
+
+NominalAndIdentified ValuesOf(const CalibrationResult& result, int candidate,
+                              const Pose& X_FT_nominal) {
+  const Estimate& estimate = result.identification.estimate;
+  const auto bases = static_cast<int>(estimate.X_MB.size());
+  const int frame = candidate / kFrameParameters;
+  const bool tool = frame >= bases && frame < bases + static_cast<int>(estimate.X_FT.size());
+  const double nominal = tool ? Coordinate(X_FT_nominal, candidate % kFrameParameters) : 0;
+  return {nominal, ValueIn(estimate, candidate)};
 }
 
 bool IsTurnOfFrame(const Parameter& parameter, int candidate) {
@@ -95,11 +102,69 @@ Eigen::VectorXd ShownVariances(const CalibrationResult& result) {
   return variances;
 }
 
-// What an internal parameter was before: of the earlier calibration in a partial recalibration.
-double BeforeOf(const CalibrationResult& result, const Parameter& parameter, double nominal) {
-  if (!result.change || parameter.group != ParameterGroup::kInternal) return nominal;
+// What a parameter was before: in a partial recalibration that of the earlier calibration, of
+// frames those which these readings give with it; else nominal.
+double BeforeOf(const CalibrationResult& result, int candidate, double nominal) {
+  if (!result.change) return nominal;
+  const Parameter& parameter = result.candidates[candidate];
+  if (parameter.group != ParameterGroup::kInternal)
+    return ValueIn(result.before.estimate, candidate);
   return result.before.estimate.lambda(*result.model.parameters.Find(parameter.name));
 }
+
+v1::Summary SummaryOf(const CalibrationResult& result) {
+  const Identification& identification = result.identification;
+  v1::Summary summary;
+  summary.set_termination(Name(identification.summary.termination));
+  summary.set_iterations(identification.summary.iterations);
+  summary.set_initial_cost(identification.summary.initial_cost);
+  summary.set_final_cost(identification.summary.final_cost);
+  summary.set_residuals(identification.rows);
+  summary.set_rank(static_cast<int>(identification.set.active.size()));
+  summary.set_condition(identification.set.condition);
+  summary.set_weighted_residual_variance(identification.weighted_residual_variance);
+  summary.set_model_sd_position_mm(identification.model_error.position_sd_m * kMmPerM);
+  // Where no rotation was measured there is nothing unexplained in it, only the start value.
+  if (PoseStatisticsOf(result.calibration.after).has_rotation)
+    summary.set_model_sd_rotation_deg(identification.model_error.rotation_sd_rad * kDegPerRad);
+  summary.set_message(identification.summary.message);
+  return summary;
+}
+
+void AddRedundancies(const CalibrationResult& result, v1::CalibrationReport* report) {
+  for (const NullRelation& relation : result.identification.set.redundancies)
+    *report->add_redundancies() = RedundancyOf(relation, result.candidates);
+}
+
+v1::FrameEstimate FrameOf(const std::string& label, v1::ParameterGroup group, const Pose& X,
+                          FittedOn fitted_on) {
+  v1::FrameEstimate frame;
+  frame.set_name(label);
+  frame.set_group(group);
+  *frame.mutable_pose() = convert::ToProto(X);
+  frame.set_fitted_on(fitted_on == FittedOn::kCalibrationRows ? kOnCalibrationRows
+                                                              : "its own rows");
+  return frame;
+}
+
+const v1::FrameEstimate* FrameNamed(const v1::PriorCalibration& earlier,
+                                    const v1::FrameEstimate& frame) {
+  for (const v1::FrameEstimate& known : earlier.frames()) {
+    if (known.group() == frame.group() && known.name() == frame.name()) return &known;
+  }
+  return nullptr;
+}
+
+// How many frames of a group have parameters of their own: a label stands in names where there are
+// several.
+int FramesWithParameters(const v1::CalibrationReport& report, v1::ParameterGroup group) {
+  int count = 0;
+  for (const v1::FrameEstimate& frame : report.frames())
+    count += frame.group() == group && frame.fitted_on() == kOnCalibrationRows;
+  return count;
+}
+
+}  // namespace
 
 v1::ParameterReport ParametersOf(const CalibrationResult& result, const Pose& X_FT_nominal) {
   v1::ParameterReport report;
@@ -111,7 +176,7 @@ v1::ParameterReport ParametersOf(const CalibrationResult& result, const Pose& X_
     const auto [nominal, identified] = ValuesOf(result, active[i], X_FT_nominal);
     v1::ParameterValue* value = report.add_values();
     value->set_name(parameter.name);
-    value->set_nominal(BeforeOf(result, parameter, nominal) * scale);
+    value->set_nominal(BeforeOf(result, active[i], nominal) * scale);
     value->set_identified(identified * scale);
     const auto k = static_cast<Eigen::Index>(i);
     if (k < variances.size()) value->set_sd(std::sqrt(variances(k)) * scale);
@@ -122,48 +187,27 @@ v1::ParameterReport ParametersOf(const CalibrationResult& result, const Pose& X_
   return report;
 }
 
-v1::Summary SummaryOf(const Identification& identification) {
-  v1::Summary summary;
-  summary.set_termination(Name(identification.summary.termination));
-  summary.set_iterations(identification.summary.iterations);
-  summary.set_initial_cost(identification.summary.initial_cost);
-  summary.set_final_cost(identification.summary.final_cost);
-  summary.set_residuals(identification.rows);
-  summary.set_rank(static_cast<int>(identification.set.active.size()));
-  summary.set_condition(identification.set.condition);
-  summary.set_weighted_residual_variance(identification.weighted_residual_variance);
-  summary.set_model_sd_position_mm(identification.model_error.position_sd_m * kMmPerM);
-  summary.set_model_sd_rotation_deg(identification.model_error.rotation_sd_rad * kDegPerRad);
-  summary.set_message(identification.summary.message);
-  return summary;
-}
-
-void AddRedundancies(const CalibrationResult& result, v1::CalibrationReport* report) {
-  for (const NullRelation& relation : result.identification.set.redundancies) {
-    v1::Redundancy* redundancy = report->add_redundancies();
-    redundancy->set_dropped(result.candidates[relation.dropped].name);
-    redundancy->set_relation(RelationText(relation, result.candidates));
-    redundancy->set_reason(ReasonText(relation, result.candidates));
-    redundancy->set_structural(relation.structural);
+void ShowEarlierFrames(const v1::PriorCalibration& earlier, v1::CalibrationReport* report) {
+  if (!report->has_change()) return;
+  for (const v1::FrameEstimate& frame : report->frames()) {
+    const v1::FrameEstimate* known = FrameNamed(earlier, frame);
+    if (known == nullptr || frame.fitted_on() != kOnCalibrationRows) continue;
+    const std::string label =
+        FramesWithParameters(*report, frame.group()) > 1 ? frame.name() : std::string();
+    const auto group = frame.group() == v1::BASE ? ParameterGroup::kBase : ParameterGroup::kTool;
+    for (int i = 0; i < kFrameParameters; ++i) {
+      const Parameter parameter = FrameParameter(group, label, i);
+      for (v1::ParameterValue& value : *report->mutable_parameters()->mutable_values()) {
+        if (value.name() == parameter.name)
+          value.set_nominal(Coordinate(PoseFrom(known->pose()), i) * ScaleOf(parameter.unit));
+      }
+    }
   }
 }
 
-v1::FrameEstimate FrameOf(const std::string& label, v1::ParameterGroup group, const Pose& X,
-                          FittedOn fitted_on) {
-  v1::FrameEstimate frame;
-  frame.set_name(label);
-  frame.set_group(group);
-  *frame.mutable_pose() = convert::ToProto(X);
-  frame.set_fitted_on(fitted_on == FittedOn::kCalibrationRows ? "calibration rows"
-                                                              : "its own rows");
-  return frame;
-}
-
-}  // namespace
-
 v1::SetReport SetReportOf(const SetResult& set, const std::vector<RowOf>& rows) {
   v1::SetReport report;
-  report.set_poses(static_cast<int>(set.before.size()));
+  report.set_poses(UnitsOf(set.before).count);
   *report.mutable_before() = StatisticsToProto(set.before);
   *report.mutable_after() = StatisticsToProto(set.after);
   std::vector<std::pair<int, int>> selected;
@@ -217,7 +261,7 @@ v1::CalibrationReport ReportOf(const CalibrationResult& result, const ReadingsPr
   AddRedundancies(result, &report);
   report.set_verdict(Name(result.verdict.decision));
   for (const std::string& reason : result.verdict.reasons) report.add_verdict_reasons(reason);
-  *report.mutable_summary() = SummaryOf(result.identification);
+  *report.mutable_summary() = SummaryOf(result);
   for (v1::FrameEstimate& frame :
        FramesOf(result.after_frames, readings.problem.placements, readings.problem.targets,
                 result.base_fitted_on, result.tool_fitted_on)) {

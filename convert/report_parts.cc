@@ -1,17 +1,11 @@
 #include "convert/report_parts.h"
 
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 #include "convert/report.h"
 
 namespace truepose::convert {
 namespace {
-
-void FillCounts(const CalibrationResult& result, v1::ParameterCounts* counts) {
-  counts->set_complete(result.counts.complete_by_formula);
-  counts->set_measured(result.counts.measured_by_formula);
-  counts->set_internal(result.counts.internal_by_formula);
-  counts->set_generic_rank(result.generic_rank);
-  counts->set_rank(static_cast<int>(result.identification.set.active.size()));
-}
 
 v1::SelectionStep StepOf(const std::string& added, int parameters, double weighted_rms,
                          double criterion, bool taken) {
@@ -22,6 +16,20 @@ v1::SelectionStep StepOf(const std::string& added, int parameters, double weight
   step.set_criterion(criterion);
   step.set_taken(taken);
   return step;
+}
+
+// One sentence for all groups that were not tried, each with its reason.
+void WarnOfUntried(const CalibrationResult& result, const ReadingsProblem& readings,
+                   v1::CalibrationReport* report) {
+  std::vector<std::string> texts;
+  for (const UntriedEffect& untried : result.effects.untried) {
+    std::string text = absl::StrCat(Name(untried.group), " (", untried.reason);
+    if (untried.reading_id >= 0)
+      absl::StrAppend(&text, "; first in row ", readings.rows[untried.reading_id].row);
+    texts.push_back(text + ")");
+  }
+  if (!texts.empty())
+    report->add_warnings(absl::StrCat("effects not tried: ", absl::StrJoin(texts, ", ")));
 }
 
 void FillSelection(const CalibrationResult& result, v1::CalibrationReport* report) {
@@ -48,10 +56,6 @@ void FillSuspects(const CalibrationResult& result, const ReadingsProblem& readin
 
 void FillCorrelations(const CalibrationResult& result, v1::CalibrationReport* report) {
   for (const Correlation& correlation : result.correlations) {
-    // Frames that trade with each other concern nobody: the robot's own parameters do.
-    if (result.candidates[correlation.a].group != ParameterGroup::kInternal &&
-        result.candidates[correlation.b].group != ParameterGroup::kInternal)
-      continue;
     v1::Correlation* message = report->add_correlations();
     message->set_a(result.candidates[correlation.a].name);
     message->set_b(result.candidates[correlation.b].name);
@@ -126,10 +130,31 @@ std::string NameOf(Unit unit) {
   return "1";
 }
 
+v1::ParameterCounts CountsOf(const ParameterCounts& counts, int generic_rank, int rank) {
+  v1::ParameterCounts message;
+  message.set_complete(counts.complete_by_formula);
+  message.set_measured(counts.measured_by_formula);
+  message.set_internal(counts.internal_by_formula);
+  message.set_generic_rank(generic_rank);
+  message.set_rank(rank);
+  return message;
+}
+
+v1::Redundancy RedundancyOf(const NullRelation& relation, const ParameterSet& candidates) {
+  v1::Redundancy message;
+  message.set_dropped(candidates[relation.dropped].name);
+  message.set_relation(RelationText(relation, candidates));
+  message.set_reason(ReasonText(relation, candidates));
+  message.set_structural(relation.structural);
+  return message;
+}
+
 void FillFindings(const CalibrationResult& result, const ReadingsProblem& readings,
                   v1::CalibrationReport* report) {
-  FillCounts(result, report->mutable_counts());
+  *report->mutable_counts() = CountsOf(result.counts, result.generic_rank,
+                                       static_cast<int>(result.identification.set.active.size()));
   FillSelection(result, report);
+  WarnOfUntried(result, readings, report);
   FillSuspects(result, readings, report);
   FillCorrelations(result, report);
   FillPredicted(result, report);

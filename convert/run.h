@@ -39,6 +39,14 @@ struct RunHooks {
 absl::StatusOr<v1::Calibration> RunCalibration(const v1::CalibrationInput& input,
                                                const RunHooks& hooks = {});
 
+// What RunCalibration would identify, without solving for it: counts by formula and rank, the names
+// of base, tool and internal parameters that the calibration rows determine, the others with a
+// sentence each, and the number of usable readings, calibration and control together. A run may
+// drop more and add effects that it chooses (core/calibrate/preview.h). With joints = both it is
+// that of the measured ones. @returns the errors of RunCalibration that come before it solves.
+absl::StatusOr<v1::JobPreview> RunPreview(const v1::CalibrationInput& input,
+                                          const RunHooks& hooks = {});
+
 // Applies a calibration to another session: base and tool are fitted on that session's own rows,
 // internal parameters are nominal ("before") and identified ("after").
 absl::StatusOr<v1::Evaluation> RunEvaluation(const v1::Nominal& nominal,
@@ -50,7 +58,7 @@ absl::StatusOr<v1::Evaluation> RunEvaluation(const v1::Nominal& nominal,
 // robot the joints are those that were read, and the answer is the pose X_BT of the tip where it
 // really is, without joints.
 // @returns kFailedPrecondition for a calibration whose verdict is do_not_apply; kInvalidArgument
-// with faults.
+// with faults, also for compliance from measured torques without masses (torques.h).
 absl::StatusOr<v1::CompensateResponse> RunCompensation(const v1::Nominal& nominal,
                                                        const v1::Calibration& calibration,
                                                        const v1::CompensateRequest& request);
@@ -62,6 +70,17 @@ absl::StatusOr<v1::CompensateResponse> RunCompensation(const v1::Nominal& nomina
 // for an unknown kind.
 absl::StatusOr<v1::ModelDescription> RunModelDescription(const v1::Nominal& nominal,
                                                          const std::string& kind);
+
+// The same calibration in another model: predictions of base, robot and tool stay within 1e-9 m and
+// rad, and so does their covariance, which goes through the derivative of the conversion
+// (core/conversion/conversion_jacobian.h). Where the readings left directions at nominal, more
+// parameters may carry the covariance than its rank; a warning says so. Name, job and release state
+// are dropped, digest and options.model are new.
+// @returns kInvalidArgument with faults for an unknown model or a calibration of another robot;
+//   kFailedPrecondition with a fault `joints[i]` where the other model is singular.
+absl::StatusOr<v1::Calibration> RunConversion(const v1::Nominal& nominal,
+                                              const v1::Calibration& calibration,
+                                              const std::string& model);
 
 // The figures from which a session is made of a robot. Standard deviations of one draw per
 // parameter.

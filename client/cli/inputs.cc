@@ -4,6 +4,8 @@
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/string_view.h"
+#include "absl/strings/strip.h"
 #include "client/cli/json.h"
 #include "client/cli/outcome.h"
 #include "convert/digest.h"
@@ -33,6 +35,23 @@ absl::StatusOr<v1::SessionInput> LoadSession(const std::string& path, const v1::
   input.mutable_session()->set_reading_count(static_cast<int>(file.readings.size()));
   for (v1::Reading& reading : file.readings) *input.add_readings() = std::move(reading);
   return input;
+}
+
+bool DigestFits(const v1::Calibration& calibration, const std::string& nominal_digest) {
+  return calibration.digest() ==
+         convert::CalibrationDigest(calibration.report().convention(), nominal_digest, calibration);
+}
+
+// "" for a calibration of that nominal, unchanged. The digest covers the nominal; of which one it
+// was made is known from the revision only where that is a digest itself.
+std::string WhyForeign(const v1::Calibration& calibration, const v1::Nominal& nominal) {
+  const std::string& made_from = calibration.nominal_revision();
+  const std::string other = absl::StrCat("is of another nominal revision, ", made_from);
+  if (calibration.digest().empty()) return made_from == LocalRevision(nominal) ? "" : other;
+  if (DigestFits(calibration, convert::NominalDigest(nominal))) return "";
+  absl::string_view hex = made_from;
+  if (!absl::ConsumePrefix(&hex, kLocalPrefix)) return "was edited, or " + other;
+  return DigestFits(calibration, std::string(hex)) ? other : "was edited: its digest does not fit";
 }
 
 }  // namespace
@@ -112,16 +131,21 @@ std::string LocalRevision(const v1::Nominal& nominal) {
 
 absl::Status CheckBelongsTogether(const v1::Calibration& calibration, const v1::Nominal& nominal,
                                   const std::string& robot_path) {
-  const bool fits = calibration.digest().empty()
-                        ? calibration.nominal_revision() == LocalRevision(nominal)
-                        : calibration.digest() == convert::CalibrationDigest(
-                                                      calibration.report().convention(),
-                                                      convert::NominalDigest(nominal), calibration);
-  if (fits) return absl::OkStatus();
+  const std::string why = WhyForeign(calibration, nominal);
+  if (why.empty()) return absl::OkStatus();
+  return FaultStatus("--robot",
+                     absl::StrCat(robot_path, " with nominal ", LocalRevision(nominal),
+                                  " beside a calibration that ", why),
+                     "the robot file from which the calibration was made, and that calibration "
+                     "unchanged");
+}
+
+absl::Status CheckPrior(const v1::Calibration& calibration, const v1::Nominal& nominal) {
+  const std::string why = WhyForeign(calibration, nominal);
+  if (why.empty()) return absl::OkStatus();
   return FaultStatus(
-      "--robot", absl::StrCat(robot_path, " with nominal ", LocalRevision(nominal)),
-      absl::StrCat("the robot file from which the calibration was made, ",
-                   calibration.nominal_revision(), ", and that calibration unchanged"));
+      "--prior", "a calibration that " + why,
+      "a calibration of this nominal robot, as `truepose calibrate --output` wrote it");
 }
 
 }  // namespace truepose::cli

@@ -56,4 +56,7 @@ std::string LocalRevision(const v1::Nominal& nominal);
 absl::Status CheckBelongsTogether(const v1::Calibration& calibration, const v1::Nominal& nominal,
                                   const std::string& robot_path);
 
+// The same of a calibration that is to be the prior of another one, as a fault of `--prior`.
+absl::Status CheckPrior(const v1::Calibration& calibration, const v1::Nominal& nominal);
+
 }  // namespace truepose::cli

@@ -12,6 +12,7 @@ namespace truepose::cli {
 namespace {
 
 constexpr char kUsagePayload[] = "type.truepose/usage";
+constexpr char kAnsweredPayload[] = "type.truepose/answered";
 
 // The same status with another code or message; an absl::Status can't be changed in place.
 absl::Status Copy(const absl::Status& status, absl::StatusCode code, absl::string_view message) {
@@ -37,6 +38,18 @@ absl::Status OptionFault(absl::string_view option, absl::string_view found,
 absl::Status AsInputFault(const absl::Status& status) {
   if (status.ok()) return status;
   return Copy(status, absl::StatusCode::kInvalidArgument, status.message());
+}
+
+absl::Status AnsweredFailure(absl::string_view message) {
+  absl::Status status = absl::AbortedError(message);
+  status.SetPayload(kAnsweredPayload, absl::Cord());
+  return status;
+}
+
+absl::Status AsFaultOfInput(const absl::Status& status) {
+  const bool of_input =
+      status.code() == absl::StatusCode::kFailedPrecondition && !FaultsOf(status).empty();
+  return of_input ? AsInputFault(status) : status;
 }
 
 absl::Status WithHint(const absl::Status& status, absl::StatusCode code, absl::string_view hint) {
@@ -84,7 +97,7 @@ void PrintError(const Console& console, bool json, const absl::Status& status) {
   if (several) console.err << "truepose: " << FaultsOf(status).size() << " faults\n";
   const std::string indented = absl::StrReplaceAll(status.message(), {{"\n", "\n  "}});
   console.err << (several ? "  " : "truepose: ") << indented << "\n";
-  if (json) console.out << ErrorJson(status) << "\n";
+  if (json && !status.GetPayload(kAnsweredPayload)) console.out << ErrorJson(status) << "\n";
 }
 
 }  // namespace truepose::cli

@@ -34,6 +34,13 @@ absl::Status RenameFields(const absl::Status& status, const Renaming& renaming);
 // client/exit_codes.h.
 int ExitCodeOf(const absl::Status& status);
 
+// A run that ended without success although its result is complete and already printed: exit code
+// 1, and with `json` no second object.
+absl::Status AnsweredFailure(absl::string_view message);
+
+// Faults of the readings that a run found out (kFailedPrecondition) are faults of the input.
+absl::Status AsFaultOfInput(const absl::Status& status);
+
 // The message on `err`, one line a fault, with "truepose: " before it; with `json` also one object
 // on `out`. Nothing for OK.
 void PrintError(const Console& console, bool json, const absl::Status& status);

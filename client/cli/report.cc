@@ -1,5 +1,7 @@
 #include "client/cli/report.h"
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
@@ -87,13 +89,21 @@ std::string SummaryLine(const v1::CalibrationReport& report) {
                       absl::StrFormat("%.3g", summary.condition()));
 }
 
-// "unexplained per axis: 0.284 mm, 0.034 deg; weighted residual variance 1.00"
-std::string NoiseLine(const v1::Summary& summary) {
-  return absl::StrFormat("unexplained per axis: %s mm, %s deg; weighted residual variance %.2f",
-                         Fixed(summary.model_sd_position_mm(), kFewDigits),
-                         Fixed(summary.model_sd_rotation_deg(), kFewDigits),
-                         summary.weighted_residual_variance());
+// "unexplained per axis: 0.284 mm, 0.034 deg; weighted residual variance 1.00"; without the angle
+// where none was measured.
+std::string NoiseLine(const v1::CalibrationReport& report) {
+  const v1::Summary& summary = report.summary();
+  std::string text = absl::StrCat(
+      "unexplained per axis: ", Fixed(summary.model_sd_position_mm(), kFewDigits), " mm");
+  if (report.sets().calibration().after().has_rotation_deg())
+    absl::StrAppend(&text, ", ", Fixed(summary.model_sd_rotation_deg(), kFewDigits), " deg");
+  absl::StrAppendFormat(&text, "; weighted residual variance %.2f",
+                        summary.weighted_residual_variance());
+  return text;
 }
+
+constexpr char kNotConverged[] =
+    "Not converged: the figures below are those of the last iteration and mean little";
 
 // ", prior tolerance, loss tukey": what was asked for beside the defaults.
 std::string OptionsText(const v1::CalibrationOptions& options) {
@@ -120,17 +130,28 @@ std::string HeadText(const v1::CalibrationReport& report, const v1::CalibrationO
       "Model ", report.model(), ", estimator ", report.estimator(), ", ", report.joints_used(),
       " joints, split ", report.split().empty() ? "none (all rows calibrate)" : report.split(),
       OptionsText(options), "\n");
-  absl::StrAppend(&text, SummaryLine(report), "\n", NoiseLine(report.summary()), "\n");
+  absl::StrAppend(&text, SummaryLine(report), "\n", NoiseLine(report), "\n");
+  if (report.summary().termination() != "converged") absl::StrAppend(&text, kNotConverged, "\n");
   if (report.summary().termination() != "converged" && !report.summary().message().empty()) {
     absl::StrAppend(&text, report.summary().message(), "\n");
   }
   return text;
 }
 
+// Enough to show two significant digits of the deviation: a compliance in deg/(N m) has them beyond
+// the fourth.
+int DigitsOf(const v1::ParameterValue& value) {
+  constexpr int kMostDigits = 12;
+  if (!(value.sd() > 0)) return kDigits;
+  const int digits = 1 - static_cast<int>(std::floor(std::log10(value.sd())));
+  return std::clamp(digits, kDigits, kMostDigits);
+}
+
 void AddParameter(const v1::ParameterValue& value, Table* table) {
-  table->Add({value.name(), GroupName(value.group()), Fixed(value.nominal(), kDigits),
-              Fixed(value.identified(), kDigits),
-              Fixed(value.identified() - value.nominal(), kDigits), Fixed(value.sd(), kDigits),
+  const int digits = DigitsOf(value);
+  table->Add({value.name(), GroupName(value.group()), Fixed(value.nominal(), digits),
+              Fixed(value.identified(), digits),
+              Fixed(value.identified() - value.nominal(), digits), Fixed(value.sd(), digits),
               value.unit()});
 }
 

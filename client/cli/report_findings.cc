@@ -13,14 +13,15 @@ namespace {
 constexpr char kIndent[] = "  ";
 // Enough to act on; --json has all.
 constexpr int kMostRows = 10;
+// Pairs are short, and where poses are poor there are many: the pattern shows in twenty.
+constexpr int kMostPairs = 20;
 
 void AppendSection(const std::string& title, const std::string& body, std::string* text) {
   if (!body.empty()) absl::StrAppend(text, "\n", title, "\n", body);
 }
 
-std::string MoreText(int count) {
-  return count <= kMostRows ? ""
-                            : absl::StrCat(kIndent, "and ", count - kMostRows, " more (--json)\n");
+std::string MoreText(int count, int most) {
+  return count <= most ? "" : absl::StrCat(kIndent, "and ", count - most, " more (--json)\n");
 }
 
 std::string CountsText(const v1::ParameterCounts& counts) {
@@ -56,7 +57,7 @@ std::string SuspectsText(const v1::CalibrationReport& report) {
     table.Add({absl::StrCat(suspect.session() + 1), absl::StrCat(suspect.row()),
                Fixed(suspect.weight(), 2), suspect.reason()});
   }
-  return absl::StrCat(table.Text(kIndent), MoreText(report.suspects_size()));
+  return absl::StrCat(table.Text(kIndent), MoreText(report.suspects_size(), kMostRows));
 }
 
 std::string CorrelationsText(const v1::CalibrationReport& report) {
@@ -68,10 +69,10 @@ std::string CorrelationsText(const v1::CalibrationReport& report) {
                      return std::abs(a.value()) > std::abs(b.value());
                    });
   std::string text;
-  for (size_t i = 0; i < std::min<size_t>(strongest.size(), kMostRows); ++i)
+  for (size_t i = 0; i < std::min<size_t>(strongest.size(), kMostPairs); ++i)
     absl::StrAppendFormat(&text, "%s%s ~ %s %.3f\n", kIndent, strongest[i].a(), strongest[i].b(),
                           strongest[i].value());
-  return absl::StrCat(text, MoreText(report.correlations_size()));
+  return absl::StrCat(text, MoreText(report.correlations_size(), kMostPairs));
 }
 
 }  // namespace

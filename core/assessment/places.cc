@@ -9,7 +9,7 @@ namespace truepose {
 namespace {
 
 struct Visit {
-  int id;
+  int id, row;
   Eigen::Vector3d p_BT;
 };
 
@@ -36,7 +36,7 @@ std::vector<Place> PlacesOf(const Problem& problem, const Estimate& estimate) {
       place = places.insert(places.end(), {reading.placement, reading.X_MT.p, {}});
     const Pose X_BT =
         Inverse(estimate.X_MB[reading.placement]) * Predict(problem, reading, estimate);
-    place->visits.push_back({reading.id, X_BT.p});
+    place->visits.push_back({reading.id, reading.row, X_BT.p});
   }
   return places;
 }
@@ -62,7 +62,7 @@ PlaceErrors PlaceErrorsOf(const Problem& problem, const Estimate& estimate) {
     if (place.visits.size() < 2) continue;
     const Eigen::Vector3d mean = place.Mean();
     for (const Visit& visit : place.visits)
-      result.errors.push_back({visit.id, (visit.p_BT - mean).norm(), -1});
+      result.errors.push_back({visit.id, (visit.p_BT - mean).norm(), -1, visit.row});
   }
   result.largest_spacing_error_m = LargestSpacingError(places);
   return result;

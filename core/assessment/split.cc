@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
@@ -82,11 +81,7 @@ std::vector<int> UnitsOf(int rows, const std::vector<std::string>& groups, int* 
 }
 
 std::vector<bool> RandomUnits(const Split& split, int units) {
-  std::vector<int> order(units);
-  std::iota(order.begin(), order.end(), 0);
-  Random random(split.seed);
-  for (int i = units - 1; i > 0; --i)
-    std::swap(order[i], order[random.Below(static_cast<uint64_t>(i) + 1)]);
+  const std::vector<int> order = Shuffled(units, split.seed);
   std::vector<bool> calibrates(units, false);
   const long count = std::lround(split.fraction * units);
   for (long i = 0; i < count; ++i) calibrates[order[i]] = true;

@@ -24,13 +24,19 @@ Statistics StatisticsOf(const std::vector<double>& sizes) {
   return result;
 }
 
+Units UnitsOf(const std::vector<PoseError>& errors) {
+  std::vector<int> rows;
+  for (const PoseError& error : errors) rows.push_back(error.row);
+  return UnitsOfRows(rows);
+}
+
 std::vector<PoseError> PoseErrors(const Problem& problem, const Estimate& estimate) {
   std::vector<PoseError> errors;
   for (const Reading& reading : problem.readings) {
     const Residual r = ResidualAt(problem, reading, estimate);
     const Eigen::Index rotations = RotationRowsOf(reading);
     errors.push_back({reading.id, r.head(r.size() - rotations).norm(),
-                      rotations > 0 ? r.tail(rotations).norm() : -1.0});
+                      rotations > 0 ? r.tail(rotations).norm() : -1.0, reading.row});
   }
   return errors;
 }
@@ -41,7 +47,7 @@ PoseStatistics PoseStatisticsOf(const std::vector<PoseError>& errors) {
     positions.push_back(error.position_m);
     if (error.rotation_rad >= 0) rotations.push_back(error.rotation_rad);
   }
-  return {static_cast<int>(errors.size()), StatisticsOf(positions), StatisticsOf(rotations),
+  return {UnitsOf(errors).count, StatisticsOf(positions), StatisticsOf(rotations),
           !rotations.empty()};
 }
 

@@ -22,14 +22,18 @@ struct PoseError {
   int id = 0;
   double position_m = 0;
   double rotation_rad = -1;
+  int row = -1;  // Reading::row
 };
 
 struct PoseStatistics {
-  int poses = 0;
+  int poses = 0;  // units: several points of one row are one
   Statistics position_m;
   Statistics rotation_rad;
   bool has_rotation = false;
 };
+
+// Which errors are of one row (reading.h).
+Units UnitsOf(const std::vector<PoseError>& errors);
 
 std::vector<PoseError> PoseErrors(const Problem& problem, const Estimate& estimate);
 PoseStatistics PoseStatisticsOf(const std::vector<PoseError>& errors);

@@ -19,20 +19,22 @@ struct Verdict {
 
 const char* Name(Decision decision);
 
-// Paired bootstrap of the ratio of control RMS positions after / before: 2,000 draws of rows with
-// replacement, fixed seed; @returns its 2.5 % and 97.5 % quantiles. @param before, after the same
-// rows in the same order, not empty.
+// Paired bootstrap of the ratio of control RMS positions after / before: 2,000 draws of rows (with
+// all points of a row) with replacement, fixed seed; @returns its 2.5 % and 97.5 % quantiles.
+// @param before, after the same readings in the same order, not empty.
 struct Interval {
   double low, high;
 };
 Interval BootstrapRatio(const std::vector<PoseError>& before, const std::vector<PoseError>& after);
 
-// do_not_apply when the solver did not converge, when that interval does not lie below 1, or when a
+// do_not_apply when the solver did not converge, when no internal parameter was identified, when
+// that interval does not lie below 1 by more than round-off (1e-6; below 5 control rows there is no
+// interval, and the ratio itself must), or when a
 // correction exceeds 100 mm or 10 deg: no robot is that wrong, so joints, units or robot file are;
 // nor when s_model exceeds 5 mm or 0.5 deg per axis: real arms leave below 1 mm, so units, joints,
 // anchors or the robot file are wrong, or the start was, whatever the ratio says;
 // apply_within_volume when parameters stayed nominal for want of readings, or when there are
-// fewer than 10 control rows; apply otherwise.
+// fewer than 10 control rows; apply otherwise. Several points of one row are one row everywhere.
 // @param parameters those of the model, beside identification.estimate.lambda.
 Verdict Judge(const Identification& identification, const ParameterSet& parameters,
               const std::vector<PoseError>& control_before,

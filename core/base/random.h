@@ -5,7 +5,10 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <numeric>
 #include <random>
+#include <utility>
+#include <vector>
 
 namespace truepose {
 
@@ -34,5 +37,15 @@ class Random {
  private:
   std::mt19937_64 generator_;
 };
+
+// 0 .. size - 1 shuffled by Fisher and Yates: for i = size - 1 down to 1 element i is swapped with
+// one of 0 .. i.
+inline std::vector<int> Shuffled(int size, uint64_t seed) {
+  std::vector<int> order(static_cast<size_t>(size));
+  std::iota(order.begin(), order.end(), 0);
+  Random random(seed);
+  for (size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.Below(i)]);
+  return order;
+}
 
 }  // namespace truepose

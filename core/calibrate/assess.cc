@@ -130,7 +130,8 @@ absl::Status Assess(const CalibrationProblem& problem, const Part& part, const H
                               WeightsOfWhole(problem, result->identification));
   result->correlations = Correlations(result->identification);
   const Problem control = InFramesOf(part, problem, controls);
-  result->predicted = Predicted(control, part.problem, result->identification);
+  if (result->identification.summary.termination == Termination::kConverged)
+    result->predicted = Predicted(control, part.problem, result->identification);
   result->control_places = PlaceErrorsOf(Chosen(whole, controls), a);
   result->verdict = JudgeResult(problem, part, *result);
   return absl::OkStatus();

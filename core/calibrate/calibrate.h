@@ -35,6 +35,9 @@ struct CalibrationProblem {
   std::optional<Pose> X_FT_nominal;       // of the target, tried first as start value
   // Frames of an earlier calibration, where they are known: for options that hold them.
   std::vector<std::optional<Pose>> X_MB_known = {};  // empty, or one a placement
+  // Chain joints of the readings by another source than their q (commanded beside measured), to be
+  // compared with them; of size 0 where there are none. Empty, or one a reading.
+  std::vector<Eigen::VectorXd> other_q = {};
 };
 
 enum class PriorKind { kNone, kTolerance, kStored };
@@ -59,6 +62,14 @@ struct CalibrateOptions {
 // How a frame came to be.
 enum class FittedOn { kCalibrationRows, kOwnRows };
 
+// How the same model fits the same calibration readings with two sources of joints
+// (joint_sources.h).
+struct JointComparison {
+  int readings = 0;        // calibration readings that have both
+  double used_rms_m = 0;   // their RMS position with the joints of the result
+  double other_rms_m = 0;  // and with the others
+};
+
 struct SetResult {
   std::vector<PoseError> before, after;  // the same readings in the same order
 };
@@ -79,9 +90,11 @@ struct CalibrationResult {
   std::vector<EffectGroup> effect_groups;  // of the model
   std::vector<Suspect> suspects;           // Suspect::reading indexes the problem's readings
   std::vector<Correlation> correlations;
-  PredictedAccuracy predicted;       // on control rows in frames that the calibration rows have
-  PlaceErrors control_places;        // of contact control rows
-  std::optional<ChangeTest> change;  // of a partial recalibration from a stored calibration
+  // On control rows in frames that the calibration rows have; none when not converged.
+  PredictedAccuracy predicted;
+  PlaceErrors control_places;             // of contact control rows
+  std::optional<JointComparison> joints;  // where the problem has other_q
+  std::optional<ChangeTest> change;       // of a partial recalibration from a stored calibration
   Verdict verdict;
 };
 

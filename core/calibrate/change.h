@@ -6,7 +6,7 @@
 //   cov(A) = (J_A' J_A)^-1 + G C_HH G'
 // and, if nothing has changed, the new values N of the named parameters differ from the stored ones
 // by a normal of mean 0 and covariance
-//   (J_A' J_A)^-1_NN + [I G_N] C_stored [I G_N]'
+//   (J_A' J_A)^-1_NN + [-I G_N] C_stored [-I G_N]'
 // which the chi-square test of the difference uses.
 #pragma once
 

@@ -9,8 +9,9 @@ namespace truepose {
 
 absl::Status CheckProblem(const CalibrationProblem& problem) {
   FaultList faults;
-  if (problem.readings.empty()) faults.Add("readings", "none that can be used", "at least one");
-  if (problem.calibrates.size() != problem.readings.size()) {
+  if (problem.readings.empty()) {
+    faults.Add("readings", "none that can be used", "at least one");
+  } else if (problem.calibrates.size() != problem.readings.size()) {
     faults.Add("roles", absl::StrCat(problem.calibrates.size()),
                absl::StrCat(problem.readings.size(), ", one a reading"));
   } else if (std::count(problem.calibrates.begin(), problem.calibrates.end(), true) == 0) {

@@ -4,21 +4,25 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
 
-#include "core/base/random.h"
+#include "absl/strings/str_cat.h"
 #include "core/calibrate/sets.h"
+#include "core/identification/folds.h"
 #include "core/identification/prior.h"
 
 namespace truepose {
 namespace {
 
-std::vector<int> FoldOfUnits(int units, const EffectChoiceOptions& options) {
-  std::vector<int> folds(units);
-  for (int i = 0; i < units; ++i) folds[i] = i % options.folds;
-  Random random(options.seed);
-  for (int i = units - 1; i > 0; --i)
-    std::swap(folds[i], folds[random.Below(static_cast<uint64_t>(i) + 1)]);
-  return folds;
+// What is known of the parameters before the readings, effects among them: the prior of the
+// problem that is solved.
+Prior WidenedPrior(const Problem& problem, const Model& wide) {
+  Prior prior = problem.prior.value_or(NoPrior(problem.model->parameters));
+  const Eigen::Index size = wide.parameters.size();
+  prior.mean.conservativeResizeLike(Eigen::VectorXd::Zero(size));
+  prior.root.conservativeResizeLike(Eigen::MatrixXd::Zero(prior.root.rows(), size));
+  AddEffectPrior(wide.parameters, &prior);
+  return prior;
 }
 
 // The linearised problem of all candidates, effects included, with a fold for each row.
@@ -27,29 +31,36 @@ class Linearised {
   Linearised(const Problem& problem, const Estimate& estimate, const ModelError& error,
              const EffectChoiceOptions& options)
       : system_(Whitened(problem, estimate, error)), names_(Candidates(problem)) {
-    const std::vector<int> units = UnitsOf(problem);
-    units_ = units.empty() ? 0 : 1 + *std::max_element(units.begin(), units.end());
-    const std::vector<int> fold_of_unit = FoldOfUnits(units_, options);
+    const Units units = UnitsOf(problem);
+    units_ = units.count;
+    folds_ = std::max(1, std::min(options.folds, units_));
+    const Folds folds = DealFolds(units, folds_, options.seed);
     for (size_t i = 0; i < problem.readings.size(); ++i) {
       for (int row = 0; row < RowsOf(problem.readings[i]); ++row) {
-        unit_.push_back(units[i]);
-        fold_.push_back(fold_of_unit[units[i]]);
+        unit_.push_back(units.of[i]);
+        fold_.push_back(folds.fold_of[units.of[i]]);
       }
     }
-    folds_ = options.folds;
   }
 
-  int units() const { return units_; }
+  // Measured values; those of a prior are not among them. Of a reading six at most: a flange has no
+  // more coordinates, however many points of it are seen.
+  int values() const {
+    std::vector<int> of_unit(units_, 0);
+    for (const int unit : unit_) of_unit[unit] = std::min(of_unit[unit] + 1, 6);
+    return std::accumulate(of_unit.begin(), of_unit.end(), 0);
+  }
+  int readings() const { return units_; }
 
-  // Of `columns`, those that are independent.
+  // Of `columns`, those that are independent by the readings alone, as when they are identified.
   std::vector<int> Independent(const std::vector<int>& columns) const {
     ParameterSet names;
     for (int column : columns) names.Add(names_[column]);
     IdentifiabilityOptions options;
     options.use_sd_bounds = false;
+    const Eigen::MatrixXd J = system_.J.topRows(ReadingRows())(Eigen::all, columns);
     std::vector<int> kept;
-    for (int index : Identifiable(system_.J(Eigen::all, columns), names, options).active)
-      kept.push_back(columns[index]);
+    for (int index : Identifiable(J, names, options).active) kept.push_back(columns[index]);
     return kept;
   }
 
@@ -78,8 +89,7 @@ class Linearised {
   double FittedRms(const std::vector<int>& columns) const {
     const Eigen::MatrixXd J = Scaled(columns);
     const Eigen::VectorXd left = system_.r - J * J.householderQr().solve(system_.r);
-    const auto readings = static_cast<Eigen::Index>(unit_.size());  // rows of the prior come last
-    return std::sqrt(left.head(readings).squaredNorm() / static_cast<double>(readings));
+    return std::sqrt(left.head(ReadingRows()).squaredNorm() / static_cast<double>(ReadingRows()));
   }
 
   double Rms(const std::vector<double>& squares) const {
@@ -88,6 +98,9 @@ class Linearised {
   }
 
  private:
+  // Those of the prior come after them.
+  Eigen::Index ReadingRows() const { return static_cast<Eigen::Index>(unit_.size()); }
+
   // The columns, each of norm 1: their units don't matter here, nor does their sign.
   Eigen::MatrixXd Scaled(const std::vector<int>& columns) const {
     Eigen::MatrixXd J = system_.J(Eigen::all, columns);
@@ -144,6 +157,38 @@ struct Candidate {
   std::vector<int> columns;
 };
 
+bool IsEnough(const Linearised& system, const EffectChoiceOptions& options, size_t parameters) {
+  return system.values() >= options.values_per_parameter * static_cast<double>(parameters);
+}
+
+double LeastGain(const Linearised& system, const EffectChoiceOptions& options, size_t parameters) {
+  const double many = 2 * options.values_per_parameter * static_cast<double>(parameters);
+  return system.values() >= many ? options.least_gain : options.least_gain_of_few;
+}
+
+// A group that there are too few readings for now never comes in: what is taken only adds
+// parameters. So it leaves the list, with its reason.
+void DropWithoutReadings(const Linearised& system, const EffectChoiceOptions& options,
+                         const std::vector<int>& columns, std::vector<Candidate>* left,
+                         EffectChoice* choice) {
+  std::erase_if(*left, [&](const Candidate& candidate) {
+    const size_t parameters = system.Independent(Joined(columns, candidate.columns)).size();
+    if (IsEnough(system, options, parameters)) return false;
+    // What was looked at with fewer groups beside it stands in the path already.
+    const bool looked_at =
+        std::any_of(choice->path.begin(), choice->path.end(),
+                    [&](const EffectStep& step) { return step.added == Name(candidate.group); });
+    if (!looked_at)
+      choice->untried.push_back(
+          {candidate.group,
+           absl::StrCat(system.readings(), " readings give ", system.values(), " values, ",
+                        std::ceil(options.values_per_parameter * static_cast<double>(parameters)),
+                        " needed for ", parameters, " parameters"),
+           -1});
+    return true;
+  });
+}
+
 // Looks at every group left and takes the best one if it is entitled. @returns whether one was.
 bool TakeOne(const Linearised& system, const EffectChoiceOptions& options,
              std::vector<int>* columns, std::vector<Candidate>* left, EffectChoice* choice) {
@@ -153,13 +198,12 @@ bool TakeOne(const Linearised& system, const EffectChoiceOptions& options,
   std::vector<int> best_columns;
   for (size_t i = 0; i < left->size(); ++i) {
     const std::vector<int> wider = system.Independent(Joined(*columns, (*left)[i].columns));
-    if (system.units() < options.readings_per_parameter * static_cast<double>(wider.size()))
-      continue;
     const std::vector<double> then = system.HeldOut(wider);
     choice->path.push_back({Name((*left)[i].group), static_cast<int>(wider.size()),
                             system.FittedRms(wider), system.Rms(then), false});
     const auto [mean, standard_error] = DropOf(now, then);
-    const bool enough = system.Rms(then) <= (1 - options.least_gain) * system.Rms(now);
+    const double gain = LeastGain(system, options, wider.size());
+    const bool enough = system.Rms(then) <= (1 - gain) * system.Rms(now);
     if (!enough || mean <= standard_error || mean <= best_mean) continue;
     best = i, best_mean = mean, best_columns = wider;
   }
@@ -178,17 +222,31 @@ bool TakeOne(const Linearised& system, const EffectChoiceOptions& options,
 
 }  // namespace
 
-std::vector<EffectGroup> AvailableEffects(const Robot& robot, const Problem& problem) {
-  std::vector<EffectGroup> groups = {EffectGroup::kGain, EffectGroup::kHarmonic1,
-                                     EffectGroup::kHarmonic2};
-  bool torque = true, temperature = false;
+std::vector<UntriedEffect> EffectsWithoutCause(const Robot& robot, const Problem& problem) {
+  std::vector<UntriedEffect> untried;
+  int without_torque = 0, first_without = -1;
+  bool temperature = false;
   for (const Reading& reading : problem.readings) {
-    torque = torque && reading.conditions.joint_torque.size() > 0;
     temperature = temperature ||
                   reading.conditions.temperature_K != problem.readings[0].conditions.temperature_K;
+    if (reading.conditions.joint_torque.size() > 0) continue;
+    if (++without_torque == 1) first_without = reading.id;
   }
-  if (torque || !robot.masses().empty()) groups.push_back(EffectGroup::kCompliance);
-  if (temperature) groups.push_back(EffectGroup::kTemperature);
+  if (without_torque > 0 && robot.masses().empty())
+    untried.push_back(
+        {EffectGroup::kCompliance,
+         absl::StrCat("joint torques (tau1_Nm...) are missing in ", without_torque, " of ",
+                      problem.readings.size(), " readings, and the robot file has no masses"),
+         first_without});
+  if (!temperature)
+    untried.push_back({EffectGroup::kTemperature, "there is no temperature (temp_C) that varies"});
+  return untried;
+}
+
+std::vector<EffectGroup> AvailableEffects(const Robot& robot, const Problem& problem) {
+  std::vector<EffectGroup> groups = AllEffectGroups();
+  for (const UntriedEffect& untried : EffectsWithoutCause(robot, problem))
+    std::erase(groups, untried.group);
   return groups;
 }
 
@@ -198,8 +256,7 @@ EffectChoice ChooseEffects(const Robot& robot, const Problem& problem,
   for (EffectGroup group : AvailableEffects(robot, problem)) AddEffects(robot, group, &wide);
   Problem with_effects = problem;
   with_effects.model = &wide;
-  with_effects.prior = NoPrior(wide.parameters);
-  AddEffectPrior(wide.parameters, &*with_effects.prior);
+  with_effects.prior = WidenedPrior(problem, wide);
   Estimate estimate = geometric.estimate;
   estimate.lambda.conservativeResizeLike(Eigen::VectorXd::Zero(wide.parameters.size()));
   const Linearised system(with_effects, estimate, geometric.model_error, options);
@@ -210,8 +267,10 @@ EffectChoice ChooseEffects(const Robot& robot, const Problem& problem,
   EffectChoice choice;
   choice.path.push_back({"", static_cast<int>(columns.size()), system.FittedRms(columns),
                          system.Rms(system.HeldOut(columns)), true});
-  while (TakeOne(system, options, &columns, &left, &choice)) {
-  }
+  choice.untried = EffectsWithoutCause(robot, problem);
+  do {
+    DropWithoutReadings(system, options, columns, &left, &choice);
+  } while (TakeOne(system, options, &columns, &left, &choice));
   return choice;
 }
 

@@ -1,6 +1,10 @@
 #include "core/calibrate/parameter_choice.h"
 
-#include "core/calibrate/sets.h"
+#include <algorithm>
+
+#include "absl/strings/str_cat.h"
+#include "core/base/fault.h"
+#include "core/base/status_macros.h"
 
 namespace truepose {
 namespace {
@@ -8,6 +12,18 @@ namespace {
 bool IsInBaseSet(const Parameter& parameter) {
   return parameter.role == ParameterRole::kExternal ||
          parameter.role == ParameterRole::kJointOffset || parameter.role == ParameterRole::kLength;
+}
+
+constexpr int kLeastFolds = 2;
+
+absl::Status CheckRows(const Units& units, const SelectionOptions& options) {
+  if (units.count >= kLeastFolds) return absl::OkStatus();
+  return FaultStatus(
+      "options.select",
+      absl::StrCat(Name(options.criterion), " with ", units.count, " calibration rows"),
+      absl::StrCat("at least ", kLeastFolds,
+                   " rows: each fold is predicted by the others (none, forward and "
+                   "bic do without folds)"));
 }
 
 }  // namespace
@@ -27,7 +43,11 @@ absl::StatusOr<SelectionResult> ChooseParameters(const Problem& problem, const I
     }
   }
   SelectionOptions by_row = options;
-  by_row.units = UnitsOf(problem);
+  const Units units = UnitsOf(problem);
+  by_row.units = units.of;
+  by_row.folds = std::min(options.folds, units.count);
+  if (options.criterion == SelectionCriterion::kCrossValidation)
+    TRUEPOSE_RETURN_IF_ERROR(CheckRows(units, options));
   return Select(problem, full.model_error, start, base, candidates, by_row, hooks);
 }
 

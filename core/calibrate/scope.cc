@@ -18,6 +18,12 @@ std::vector<std::string> WordsOf(const std::string& text) {
   return words;
 }
 
+// Words that free no internal parameter by themselves.
+bool IsWord(const std::string& word) {
+  return word == "all" || word == "internal" || word == "external" || word == "base" ||
+         word == "tool";
+}
+
 std::string InternalNames(const Problem& problem) {
   std::vector<std::string> names;
   for (const Parameter& parameter : problem.model->parameters) names.push_back(parameter.name);
@@ -55,14 +61,16 @@ bool IsPartial(const std::string& text) {
 
 absl::StatusOr<Scope> ScopeOf(const std::string& text, const Problem& problem) {
   Scope scope;
-  if (!IsPartial(text)) return scope;
   const std::vector<std::string> words = WordsOf(text);
+  if (words.empty() && !text.empty())
+    return FaultStatus("options.calibrate", absl::StrCat("'", text, "', an empty list"),
+                       "a word or the name of a parameter");
   scope.tool = words != std::vector<std::string>{"base"};
   scope.base = words != std::vector<std::string>{"tool"};
   std::set<int> free;
   FaultList faults;
   for (const std::string& word : words) {
-    if (word == "external" || word == "base" || word == "tool") continue;
+    if (IsWord(word)) continue;
     if (const auto index = problem.model->parameters.Find(word))
       scope.named.push_back(problem.FirstInternal() + *index);
     if (AddInternal(word, problem, &free)) continue;
@@ -71,6 +79,7 @@ absl::StatusOr<Scope> ScopeOf(const std::string& text, const Problem& problem) {
                             "the model: ", InternalNames(problem)));
   }
   if (!faults.empty()) return faults.ToStatus();
+  if (!IsPartial(text)) return Scope{};
   AddFrames(problem, scope, &free);
   scope.free.assign(free.begin(), free.end());
   return scope;

@@ -24,7 +24,7 @@ struct Scope {
 
 // @param text as above; "" is all.
 // @returns kInvalidArgument with a fault of `options.calibrate` for each name that is neither a
-// word nor an internal candidate.
+// word nor an internal candidate, also beside words that free everything; for a list of nothing.
 absl::StatusOr<Scope> ScopeOf(const std::string& text, const Problem& problem);
 
 // Whether the text, without any problem, is one that frees a part only.

@@ -1,7 +1,6 @@
 #include "core/calibrate/sets.h"
 
 #include <algorithm>
-#include <map>
 
 #include "core/base/status_macros.h"
 
@@ -73,15 +72,6 @@ Part PartOf(const CalibrationProblem& whole, const Model& model, const std::vect
 
 Problem WholeProblem(const CalibrationProblem& whole, const Model& model) {
   return {&model, whole.readings, whole.placements, whole.targets, whole.offsets};
-}
-
-std::vector<int> UnitsOf(const Problem& problem) {
-  std::map<int, int> unit_of_id;
-  std::vector<int> units;
-  for (const Reading& reading : problem.readings)
-    units.push_back(
-        unit_of_id.emplace(reading.id, static_cast<int>(unit_of_id.size())).first->second);
-  return units;
 }
 
 absl::StatusOr<WholeFrames> FramesOfWhole(const CalibrationProblem& whole, const Model& model,

@@ -19,10 +19,6 @@ Part PartOf(const CalibrationProblem& whole, const Model& model, const std::vect
 // All readings with the frames of the whole.
 Problem WholeProblem(const CalibrationProblem& whole, const Model& model);
 
-// Readings of one row share its joints and are never separated: a unit number for each reading,
-// equal for equal ids.
-std::vector<int> UnitsOf(const Problem& problem);
-
 // Frames of the whole from those of the part; frames that the part does not have are fitted on
 // their own rows with lambda and the known frames held.
 struct WholeFrames {

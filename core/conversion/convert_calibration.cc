@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include "absl/strings/str_cat.h"
 #include "core/base/fault.h"
 #include "core/base/random.h"
 #include "core/base/status_macros.h"
+#include "core/conversion/draw_joints.h"
 #include "core/conversion/singular_link.h"
 #include "core/identification/identifiability.h"
 #include "core/identification/prediction.h"
@@ -59,17 +59,6 @@ absl::Status CheckInput(const Robot& robot, const Model& from, const Eigen::Vect
   return faults.ToStatus();
 }
 
-Eigen::VectorXd DrawJoints(const Robot& robot, Random* random) {
-  Eigen::VectorXd q = robot.MiddleOfLimits();
-  for (int i = 0; i < robot.joint_count(); ++i) {
-    const Joint& joint = robot.joints()[i];
-    const double half = joint.type == JointType::kRevolute ? std::numbers::pi : 0.5;
-    q(i) = random->Uniform(std::isfinite(joint.lower) ? joint.lower : q(i) - half,
-                           std::isfinite(joint.upper) ? joint.upper : q(i) + half);
-  }
-  return robot.joint_map().ToChain(q);
-}
-
 // Exact poses of the flange in B as `from` has them.
 std::vector<Reading> ReadingsOf(const Robot& robot, const Model& from,
                                 const Eigen::VectorXd& lambda, int poses, Random* random) {
@@ -82,13 +71,20 @@ std::vector<Reading> ReadingsOf(const Robot& robot, const Model& from,
   return readings;
 }
 
-// `to` at nominal with the effects of `from`.
-Estimate StartOf(const Problem& problem, const Model& from, const Eigen::VectorXd& lambda) {
+// `to` at nominal with the effects of `from`, and with its offsets of joints that are not solved
+// for: dq of the first and last joint say where B and F stand when these have effects
+// (core/calibrate/gauge.h), which is where compensation takes them to be.
+Estimate StartOf(const Problem& problem, const Model& from, const Eigen::VectorXd& lambda,
+                 const std::vector<int>& active) {
   Estimate start = NominalEstimate(problem);
   for (int i = 0; i < from.parameters.size(); ++i) {
-    if (!IsEffect(from.parameters[i])) continue;
-    const auto same = problem.model->parameters.Find(from.parameters[i].name);
-    if (same) start.lambda(*same) = lambda(i);
+    const Parameter& parameter = from.parameters[i];
+    const auto same = problem.model->parameters.Find(parameter.name);
+    if (!same) continue;
+    const bool held =
+        parameter.role == ParameterRole::kJointOffset &&
+        !std::binary_search(active.begin(), active.end(), problem.FirstInternal() + *same);
+    if (held || IsEffect(parameter)) start.lambda(*same) = lambda(i);
   }
   return start;
 }
@@ -137,7 +133,7 @@ absl::StatusOr<Conversion> ConvertCalibration(const Robot& robot, const Model& f
   const std::vector<Reading> checked =
       ReadingsOf(robot, from, calibration.lambda, kCheckedPoses, &random);
   const std::vector<int> active = GeometricIdentifiable(problem, robot);
-  const Estimate start = StartOf(problem, from, calibration.lambda);
+  const Estimate start = StartOf(problem, from, calibration.lambda, active);
   Estimate solved = start;
   Solve(problem, ModelError{}, active, {}, {}, &solved);
   const PredictionGap worst = WorstGap(problem, solved, checked);
@@ -145,7 +141,12 @@ absl::StatusOr<Conversion> ConvertCalibration(const Robot& robot, const Model& f
       RanAway(from, calibration.lambda, to, solved.lambda)) {
     return SingularLink({robot, from, calibration.lambda, problem, active, start, solved, worst});
   }
-  return Conversion{WithFrames(calibration, solved), worst};
+  Conversion conversion{WithFrames(calibration, solved), worst, {}};
+  for (int index : active) {
+    if (index >= problem.FirstInternal())
+      conversion.solved.push_back(index - problem.FirstInternal());
+  }
+  return conversion;
 }
 
 }  // namespace truepose

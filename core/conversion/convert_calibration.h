@@ -5,11 +5,14 @@
 // Both models are complete at nominal, so each describes all robots near the nominal one, and a
 // solution exists. It is found as an identification: exact full poses of `from` over the joint
 // ranges are the readings, the parameters of `to` that generic poses determine are active
-// (identifiability.h), the others stay at zero. What one model counts to the links and the other to
-// base or tool moves between lambda and the frames: X_MB' = X_MB G, X_FT' = H X_FT with the same G
-// for all placements and the same H for all targets. Effects of joints keep their values; they act
-// on the joints as read and take no part.
+// (identifiability.h), the others stay at zero, but for offsets of joints of the same name, which
+// keep their value: of the first and last joint they say where B and F stand. What one model counts
+// to the links and the other to base or tool moves between lambda and the frames: X_MB' = X_MB G,
+// X_FT' = H X_FT with the same G for all placements and the same H for all targets. Effects of
+// joints keep their values; they act on the joints as read and take no part.
 #pragma once
+
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "core/identification/problem.h"
@@ -28,6 +31,8 @@ struct Conversion {
   Estimate estimate;    // of `to`; placements, targets and constants in the order of `from`'s
   PredictionGap worst;  // below 1e-9 m and 1e-9 rad at 200 poses over the joint ranges that the
                         // solution has not seen
+  std::vector<int> solved = {};  // parameters of `to` that were solved for: geometric ones that
+                                 // generic poses determine; the others are 0 or effects
 };
 
 // Joint ranges are the limits; where one is missing, half a turn or 0.5 m from the middle.

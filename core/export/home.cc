@@ -1,23 +1,35 @@
 #include "core/export/home.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 #include "core/base/fault.h"
 
 namespace truepose {
 namespace {
 
+constexpr size_t kEffectsShown = 3;
+
+// One fault for all of them: harmonics alone are four numbers a joint, and the cure is the same.
 void CheckEffects(const Model& model, const Eigen::VectorXd& lambda, FaultList* faults) {
+  std::vector<std::string> names;
   for (const JointEffect& effect : model.effects) {
-    if (lambda(effect.parameter) == 0) continue;
-    faults->Add(
-        "effects",
-        absl::StrCat(model.parameters[effect.parameter].name, " = ", lambda(effect.parameter)),
-        "geometry alone: calibrate without joint effects to export, what is left of a "
-        "calibration with them is not the best geometry");
+    if (lambda(effect.parameter) != 0) names.push_back(model.parameters[effect.parameter].name);
   }
+  if (names.empty()) return;
+  const size_t shown = std::min(names.size(), kEffectsShown);
+  faults->Add(
+      "effects",
+      absl::StrCat(absl::StrJoin(names.begin(), names.begin() + static_cast<long>(shown), ", "),
+                   names.size() > shown ? absl::StrCat(" and ", names.size() - shown, " more") : "",
+                   " not zero"),
+      "geometry alone: calibrate without joint effects to export, what is left of a "
+      "calibration with them is not the best geometry");
 }
 
 void CheckMap(const JointMap& map, FaultList* faults) {

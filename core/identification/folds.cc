@@ -14,15 +14,6 @@
 namespace truepose {
 namespace {
 
-std::vector<int> Shuffled(int size, uint64_t seed) {
-  std::vector<int> order(size);
-  std::iota(order.begin(), order.end(), 0);
-  Random random(seed);
-  for (int i = size - 1; i > 0; --i)
-    std::swap(order[i], order[random.Below(static_cast<uint64_t>(i) + 1)]);
-  return order;
-}
-
 void NumberUnits(const std::vector<int>& units, Folds* folds) {
   std::map<int, int> known;
   for (int unit : units)
@@ -55,6 +46,13 @@ int RankOf(const Problem& problem, const ModelError& model_error, const Estimate
 
 }  // namespace
 
+Folds DealFolds(const Units& units, int count, uint64_t seed) {
+  Folds folds{units.of, units.count, std::vector<int>(static_cast<size_t>(units.count)), count};
+  const std::vector<int> order = Shuffled(units.count, seed);
+  for (int i = 0; i < units.count; ++i) folds.fold_of[order[i]] = i % count;
+  return folds;
+}
+
 absl::StatusOr<Folds> DealFolds(int readings, const std::vector<int>& units, int count,
                                 uint64_t seed) {
   std::vector<int> all = units;
@@ -66,10 +64,7 @@ absl::StatusOr<Folds> DealFolds(int readings, const std::vector<int>& units, int
   folds.count = count;
   NumberUnits(all, &folds);
   if (absl::Status status = CheckCounts(readings, all.size(), folds); !status.ok()) return status;
-  folds.fold_of.resize(folds.unit_count);
-  const std::vector<int> order = Shuffled(folds.unit_count, seed);
-  for (int i = 0; i < folds.unit_count; ++i) folds.fold_of[order[i]] = i % count;
-  return folds;
+  return DealFolds(Units{folds.unit_of, folds.unit_count}, count, seed);
 }
 
 Problem Without(const Problem& problem, const Folds& folds, int fold) {
@@ -88,10 +83,11 @@ absl::Status CheckFolds(const Problem& problem, const ModelError& model_error,
   for (int fold = 0; fold < folds.count; ++fold) {
     const int rank = RankOf(Without(problem, folds, fold), model_error, estimate, active);
     if (rank == static_cast<int>(active.size())) continue;
-    faults.Add("folds",
+    faults.Add("options.select",
                absl::StrCat("without fold ", fold + 1, " of ", folds.count,
                             " the readings determine ", rank, " of ", active.size(), " parameters"),
-               "more folds, or units that leave every placement and target some readings");
+               "more rows of every placement and target, or a choice without folds (none, forward, "
+               "bic)");
   }
   return faults.ToStatus(absl::StatusCode::kFailedPrecondition);
 }

@@ -16,7 +16,12 @@ struct Folds {
   int count = 0;
 };
 
-// Deals the units, shuffled by the seed, to the folds in turn. @param units one a reading or empty.
+// Deals the units, shuffled by the seed, to the folds in turn. @param count 1 .. units.count, or 1
+// where there is no unit.
+Folds DealFolds(const Units& units, int count, uint64_t seed);
+
+// The same with checks. Deals the units, shuffled by the seed, to the folds in turn. @param units
+// one a reading or empty.
 // @returns kInvalidArgument when there are fewer units than folds or fewer than two folds.
 absl::StatusOr<Folds> DealFolds(int readings, const std::vector<int>& units, int count,
                                 uint64_t seed);

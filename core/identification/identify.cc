@@ -189,13 +189,30 @@ absl::Status SolveKept(const Identification& before, const IdentifyOptions& opti
 
 }  // namespace
 
+bool IsTakenUpByFrames(const Problem& problem, const IdentifiableSet& actual,
+                       const NullRelation& relation) {
+  // Two poses leave any hand-eye problem open: that is a want of readings, not of motion.
+  constexpr size_t kFewestReadings = 3;
+  if (problem.readings.size() < kFewestReadings || relation.kept.empty()) return false;
+  if (relation.dropped < problem.FirstOfTool(0) || relation.dropped >= problem.FirstOfOffsets())
+    return false;
+  const int first = relation.dropped - relation.dropped % kFrameParameters;
+  const bool moved = std::any_of(actual.active.begin(), actual.active.end(), [&](int candidate) {
+    return candidate >= first && candidate < first + kFrameParameters;
+  });
+  if (!moved) return false;
+  return std::all_of(relation.kept.begin(), relation.kept.end(),
+                     [&](const auto& term) { return term.first < problem.FirstOfOffsets(); });
+}
+
 absl::Status CheckFrames(const Problem& problem, const IdentifiableSet& generic,
                          const IdentifiableSet& actual) {
   const ParameterSet names = Candidates(problem);
   FaultList faults;
   for (const NullRelation& relation : actual.redundancies) {
     if (relation.dropped >= problem.FirstInternal() ||
-        IsStructural(problem, generic, relation.dropped))
+        IsStructural(problem, generic, relation.dropped) ||
+        IsTakenUpByFrames(problem, actual, relation))
       continue;
     faults.Add(names[relation.dropped].name,
                absl::StrCat("not determined by ", problem.readings.size(),
@@ -240,6 +257,17 @@ absl::StatusOr<Identification> FitFrames(const Problem& problem, const Estimate&
   return result;
 }
 
+absl::StatusOr<IdentifiableSet> IdentifiableAtStart(const Problem& problem,
+                                                    const IdentifiableSet& generic,
+                                                    const Identification& before,
+                                                    const IdentifyOptions& options) {
+  // The weights of "before" are those of an uncalibrated robot: no bounds on deviations yet.
+  IdentifiableSet set = SetAtNominal(problem, before, before.model_error, options, false);
+  if (options.free.empty()) TRUEPOSE_RETURN_IF_ERROR(CheckFrames(problem, generic, set));
+  MarkStructural(problem, generic, &set);
+  return set;
+}
+
 absl::StatusOr<Identification> Identify(const Problem& problem, const IdentifiableSet& generic,
                                         const Identification& before,
                                         const IdentifyOptions& options, const Hooks& hooks) {
@@ -247,9 +275,7 @@ absl::StatusOr<Identification> Identify(const Problem& problem, const Identifiab
   Identification result;
   result.estimate = before.estimate;
   result.model_error = before.model_error;
-  // The weights of "before" are those of an uncalibrated robot: no bounds on deviations yet.
-  result.set = SetAtNominal(problem, before, before.model_error, options, false);
-  if (options.free.empty()) TRUEPOSE_RETURN_IF_ERROR(CheckFrames(problem, generic, result.set));
+  TRUEPOSE_ASSIGN_OR_RETURN(result.set, IdentifiableAtStart(problem, generic, before, options));
   TRUEPOSE_RETURN_IF_ERROR(SolveKept(before, options, hooks, &weighed, &result));
   MarkStructural(problem, generic, &result.set);
   Finish(weighed, options, &result);

@@ -59,19 +59,33 @@ struct IdentifyOptions {
 absl::StatusOr<Identification> FitFrames(const Problem& problem, const Estimate& start,
                                          const IdentifyOptions& options, const Hooks& hooks);
 
+// Whether a tool direction that was dropped acts as motions of base (and other directions of tool)
+// alone: where only parallel joints move, a shift of the target along them is one of the base. The
+// robot does not depend on it, so the direction stays where it started and the base takes it up.
+// False below three readings, and where the readings show no direction of that tool at all: then
+// the arm did not move.
+bool IsTakenUpByFrames(const Problem& problem, const IdentifiableSet& actual,
+                       const NullRelation& relation);
+
 // @returns kFailedPrecondition with a fault for each base or tool direction that generic readings
-// would
-//   determine (`generic`) and `actual` does not have.
+// would determine (`generic`) and `actual` does not have, but those that IsTakenUpByFrames.
 absl::Status CheckFrames(const Problem& problem, const IdentifiableSet& generic,
                          const IdentifiableSet& actual);
+
+// The set with which Identify begins, without solving: what the readings determine at nominal
+// lambda, redundancies marked structural. None is called too weak yet: that needs the residuals.
+// @returns kFailedPrecondition as Identify does.
+absl::StatusOr<IdentifiableSet> IdentifiableAtStart(const Problem& problem,
+                                                    const IdentifiableSet& generic,
+                                                    const Identification& before,
+                                                    const IdentifyOptions& options);
 
 // Identifies everything that the readings determine, from `before` = FitFrames at nominal lambda,
 // or at that of an earlier calibration. The problem's prior takes part; which parameters are
 // identifiable is judged without it, at nominal lambda, and with it none is called too weak.
 // @param generic GenericIdentifiable of the problem: what could be determined at best.
-// @returns kFailedPrecondition with a fault for each base or tool direction that generic readings
-// would determine and
-//   these do not; kCancelled. Not converging is an outcome in the summary.
+// @returns kFailedPrecondition as CheckFrames; kCancelled. Not converging is an outcome in the
+// summary.
 absl::StatusOr<Identification> Identify(const Problem& problem, const IdentifiableSet& generic,
                                         const Identification& before,
                                         const IdentifyOptions& options, const Hooks& hooks);

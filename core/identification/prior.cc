@@ -62,7 +62,8 @@ void AddEffectPrior(const ParameterSet& parameters, Prior* prior) {
   for (int i = 0; i < parameters.size(); ++i) {
     const Parameter& parameter = parameters[i];
     const bool bounded = parameter.unit == Unit::kRadian || parameter.unit == Unit::kRatio;
-    if (parameter.role != ParameterRole::kEffect || !bounded) continue;
+    if (parameter.role != ParameterRole::kEffect || !bounded || !prior->root.col(i).isZero(0))
+      continue;
     const Eigen::Index row = prior->root.rows();
     prior->root.conservativeResizeLike(Eigen::MatrixXd::Zero(row + 1, parameters.size()));
     prior->root(row, i) = 1 / (parameter.is_angle() ? kHarmonicSd_rad : kGainSd);

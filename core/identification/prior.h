@@ -21,6 +21,8 @@ Prior PriorOf(const TolerancePrior& tolerance, const ParameterSet& parameters);
 // Joint effects about zero, normal: harmonics 0.03 deg, gain 0.0005. Along joint ranges that few
 // readings visit, gain, harmonics and offset make up for each other and run away without it (a UR10
 // from 800 poses: 0.490 -> 0.535 mm). Compliance and temperature have none: their size is unknown.
+// Effects that the prior holds already get nothing: an earlier calibration's covariance contains
+// it.
 void AddEffectPrior(const ParameterSet& parameters, Prior* prior);
 
 // A prior that says nothing.

@@ -35,6 +35,22 @@ Estimate NominalEstimate(const Problem& problem) {
           Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.offsets.size()))};
 }
 
+int RowsOf(const Problem& problem) {
+  int rows = 0;
+  for (const Reading& reading : problem.readings) rows += RowsOf(reading);
+  return rows;
+}
+
+int PriorRowsOf(const Problem& problem) {
+  return problem.prior ? static_cast<int>(problem.prior->root.rows()) : 0;
+}
+
+Units UnitsOf(const Problem& problem) {
+  std::vector<int> rows;
+  for (const Reading& reading : problem.readings) rows.push_back(reading.row);
+  return UnitsOfRows(rows);
+}
+
 std::vector<int> ExternalCandidates(const Problem& problem) {
   std::vector<int> external(problem.FirstInternal());
   std::iota(external.begin(), external.end(), 0);

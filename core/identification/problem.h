@@ -58,6 +58,13 @@ ParameterSet Candidates(const Problem& problem);
 // Nominal internal parameters, frames as given or identity.
 Estimate NominalEstimate(const Problem& problem);
 
+// Residual rows of all readings, and those of the prior after them.
+int RowsOf(const Problem& problem);
+int PriorRowsOf(const Problem& problem);
+
+// Which readings are of one row: folds never separate them.
+Units UnitsOf(const Problem& problem);
+
 // The candidates that are not internal.
 std::vector<int> ExternalCandidates(const Problem& problem);
 

@@ -28,16 +28,6 @@ double PositionRms(const Problem& problem, const Estimate& estimate) {
   return std::sqrt(sum / static_cast<double>(problem.readings.size()));
 }
 
-int RowsOfReadings(const Problem& problem) {
-  int rows = 0;
-  for (const Reading& reading : problem.readings) rows += RowsOf(reading);
-  return rows;
-}
-
-int RowsOfPrior(const Problem& problem) {
-  return problem.prior ? static_cast<int>(problem.prior->root.rows()) : 0;
-}
-
 std::vector<int> Union(std::vector<int> a, const std::vector<int>& b) {
   a.insert(a.end(), b.begin(), b.end());
   std::sort(a.begin(), a.end());
@@ -65,8 +55,8 @@ class Selector {
         candidates_(candidates),
         options_(options),
         hooks_(hooks),
-        reading_rows_(RowsOfReadings(problem)),
-        rows_(reading_rows_ + RowsOfPrior(problem)),
+        reading_rows_(RowsOf(problem)),
+        rows_(reading_rows_ + PriorRowsOf(problem)),
         left_(candidates.size(), true) {
     // The fits' own reports would step back in the run's progress.
     fit_hooks_.is_cancelled = hooks.is_cancelled;

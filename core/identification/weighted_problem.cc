@@ -25,12 +25,6 @@ void CopyColumn(const Problem& problem, const Reading& reading, const ReadingJac
   }
 }
 
-int TotalRows(const Problem& problem) {
-  int rows = problem.prior ? static_cast<int>(problem.prior->root.rows()) : 0;
-  for (const Reading& reading : problem.readings) rows += RowsOf(reading);
-  return rows;
-}
-
 }  // namespace
 
 void LineariseReading(const Problem& problem, const Reading& reading, const ResidualMatrix& W,
@@ -116,7 +110,7 @@ double WeightedProblem::MeanPositionError(const Eigen::VectorXd& x) const {
 void WeightedProblem::Linearise(const Eigen::VectorXd& x, Eigen::VectorXd* r,
                                 Eigen::MatrixXd* J) const {
   const Eigen::VectorXd values = Values(x);
-  r->resize(TotalRows(problem_));
+  r->resize(RowsOf(problem_) + PriorRowsOf(problem_));
   J->resize(r->size(), size());
   Workspace workspace;
   Residual part;
@@ -137,7 +131,7 @@ void WeightedProblem::Linearise(const Eigen::VectorXd& x, Eigen::VectorXd* r,
 
 Eigen::MatrixXd WeightedProblem::PositionJacobian(const Eigen::VectorXd& x) const {
   const Eigen::VectorXd values = Values(x);
-  Eigen::MatrixXd J(TotalRows(problem_), size());
+  Eigen::MatrixXd J(RowsOf(problem_), size());
   Workspace workspace;
   Residual r;
   RowJacobian by;

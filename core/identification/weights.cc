@@ -61,14 +61,8 @@ ResidualMatrix Unweighted(const Problem& problem, const Reading& reading, const 
   return R;
 }
 
-int RowCount(const Problem& problem) {
-  int rows = problem.prior ? static_cast<int>(problem.prior->root.rows()) : 0;
-  for (const Reading& reading : problem.readings) rows += RowsOf(reading);
-  return rows;
-}
-
 WhitenedSystem Empty(const Problem& problem) {
-  const int rows = RowCount(problem);
+  const int rows = RowsOf(problem) + PriorRowsOf(problem);
   WhitenedSystem system;
   system.r = system.raw = Eigen::VectorXd::Zero(rows);
   system.sd = system.weight = Eigen::VectorXd::Ones(rows);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 namespace truepose {
 namespace {
@@ -112,6 +113,17 @@ constexpr std::array<MeasurementKind, 6> kKinds = {{
 }  // namespace
 
 const MeasurementKind& KindOf(ObservationKind kind) { return kKinds[static_cast<size_t>(kind)]; }
+
+Units UnitsOfRows(const std::vector<int>& rows) {
+  Units units;
+  std::map<int, int> known;
+  for (const int row : rows) {
+    const int unit = row < 0 ? units.count : known.emplace(row, units.count).first->second;
+    units.of.push_back(unit);
+    units.count = std::max(units.count, unit + 1);
+  }
+  return units;
+}
 
 int PositionRowsOf(const Reading& reading) {
   if (reading.kind != ObservationKind::kCoordinates) return KindOf(reading.kind).position_rows;

@@ -19,6 +19,7 @@
 #include <array>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "core/geometry/pose.h"
 #include "core/robot/conditions.h"
@@ -59,7 +60,17 @@ struct Reading {
                          // that its places leave free (a turn about a line of sockets) are no fault
   double weight = 1;     // of a robust loss: the whole covariance is divided by it
   int id = 0;            // the caller's name for it
+  int row = -1;  // of the session; readings of one row were taken at one stand of the joints
+                 // and share their noise. -1: a row of its own
 };
+
+// Units, what is seen independently of each other: a number from 0 for each reading, in the order
+// of first reading, equal for equal rows; a row of -1 is a unit of its own.
+struct Units {
+  std::vector<int> of;  // a reading each
+  int count = 0;
+};
+Units UnitsOfRows(const std::vector<int>& rows);
 
 // Residual rows: position rows, then rotation rows. At most 6.
 using Residual = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;

@@ -41,15 +41,6 @@ absl::StatusOr<Session> Draw(uint64_t seed) {
   return session;
 }
 
-std::vector<int> Shuffled(int size, uint64_t seed) {
-  std::vector<int> order(size);
-  std::iota(order.begin(), order.end(), 0);
-  Random random(seed);
-  for (int i = size - 1; i > 0; --i)
-    std::swap(order[i], order[random.Below(static_cast<uint64_t>(i) + 1)]);
-  return order;
-}
-
 // The problems of one split; they point to the session's model.
 struct Sets {
   Problem calibration, control, complete;

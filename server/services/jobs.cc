@@ -91,7 +91,25 @@ absl::StatusOr<v1::CalibrationJob> FreezeInput(Snapshot& snapshot,
   *job.mutable_sessions() = request.sessions();
   *job.mutable_options() = request.options();
   job.set_nominal_revision(revision);
+  job.set_priority(request.priority());
+  if (request.has_deadline()) *job.mutable_deadline() = request.deadline();
+  job.set_recalibration_request(request.recalibration_request());
   job.set_input_digest(convert::JobInputDigest(nominal.digest(), digests, request.options()));
+  return job;
+}
+
+// The job as it would be stored, and what it would do.
+absl::StatusOr<v1::CalibrationJob> Preview(const CallContext& call,
+                                           const v1::CreateCalibrationJobRequest& request) {
+  v1::CalibrationJob job;
+  TRUEPOSE_ASSIGN_OR_RETURN(
+      const v1::CalibrationInput input,
+      call.store.Read([&](Snapshot& snapshot) -> absl::StatusOr<v1::CalibrationInput> {
+        TRUEPOSE_ASSIGN_OR_RETURN(job, FreezeInput(snapshot, request));
+        return store::PreviewJobInput(snapshot, request.job_id(), job);
+      }));
+  TRUEPOSE_ASSIGN_OR_RETURN(*job.mutable_preview(), convert::RunPreview(input));
+  job.set_name(store::JobName(request.job_id()));
   return job;
 }
 
@@ -100,6 +118,7 @@ absl::StatusOr<v1::CalibrationJob> FreezeInput(Snapshot& snapshot,
 absl::StatusOr<v1::CalibrationJob> CreateCalibrationJob(
     const CallContext& call, const v1::CreateCalibrationJobRequest& request) {
   TRUEPOSE_RETURN_IF_ERROR(CheckRequest(request));
+  if (request.validate_only()) return Preview(call, request);
   auto job = call.store.Write([&](Transaction& transaction) -> absl::StatusOr<v1::CalibrationJob> {
     TRUEPOSE_ASSIGN_OR_RETURN(const v1::CalibrationJob frozen, FreezeInput(transaction, request));
     return store::CreateJob(transaction, request.job_id(), frozen);

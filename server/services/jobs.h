@@ -14,7 +14,9 @@
 namespace truepose::services {
 
 // Freezes the input, stores the job and wakes a worker. The job uses the nominal revision of its
-// sessions.
+// sessions. With validate_only nothing is stored and nothing runs: the answer is the job without a
+// state, with `preview` (convert::RunPreview), or the error that a create or the begin of the run
+// would have; a deadline is not looked at, since time goes on.
 // @returns kFailedPrecondition with a fault for each session that is not sealed, is of another
 // robot, or was begun
 //   under another nominal revision than the first.

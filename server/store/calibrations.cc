@@ -11,6 +11,7 @@
 #include "server/store/list.h"
 #include "server/store/message.h"
 #include "server/store/names.h"
+#include "server/store/release.h"
 #include "server/store/robots.h"
 #include "server/store/sql/query.h"
 
@@ -103,7 +104,9 @@ absl::StatusOr<v1::Calibration> InsertCalibration(Transaction& transaction,
   *stored.mutable_create_time() = ToTimestamp(transaction.now());
   TRUEPOSE_RETURN_IF_ERROR(
       Insert(transaction, {robot_id, number}, key, job.input_digest(), stored));
-  return stored;
+  TRUEPOSE_RETURN_IF_ERROR(
+      AppendReleaseStep(transaction, stored.name(), v1::DRAFT, job.created_by(), "").status());
+  return GetCalibration(transaction, stored.name());
 }
 
 absl::StatusOr<v1::Calibration> GetCalibration(Snapshot& snapshot, std::string_view name) {
@@ -118,15 +121,17 @@ absl::StatusOr<v1::Calibration> GetCalibration(Snapshot& snapshot, std::string_v
   TRUEPOSE_ASSIGN_OR_RETURN(v1::Calibration calibration, ReadMessage<v1::Calibration>(*row, 0));
   TRUEPOSE_ASSIGN_OR_RETURN(const v1::Calibration detail, ReadMessage<v1::Calibration>(*row, 1));
   calibration.MergeFrom(detail);
+  TRUEPOSE_RETURN_IF_ERROR(FillRelease(snapshot, calibration));
   return calibration;
 }
 
 absl::StatusOr<Page<v1::Calibration>> ListCalibrations(Snapshot& snapshot,
                                                        std::string_view robot_name,
-                                                       const PageRequest& request) {
+                                                       const PageRequest& request,
+                                                       const ListFilter<v1::Calibration>& filter) {
   TRUEPOSE_RETURN_IF_ERROR(AtField(GetRobot(snapshot, robot_name).status(), "robot"));
   TRUEPOSE_ASSIGN_OR_RETURN(const std::string robot_id, ParseRobotName(robot_name, "robot"));
-  const ListId id{"calibrations", robot_id};
+  const ListId id{"calibrations", absl::StrCat(robot_id, "|", filter.Key())};
   TRUEPOSE_ASSIGN_OR_RETURN(const PageStart start, CheckPage(id, request));
   TRUEPOSE_ASSIGN_OR_RETURN(const int64_t before,
                             AfterNumber(start, std::numeric_limits<int64_t>::max()));
@@ -134,11 +139,15 @@ absl::StatusOr<Page<v1::Calibration>> ListCalibrations(Snapshot& snapshot,
       auto rows,
       sql::Query(snapshot.sql(),
                  "SELECT number, message FROM calibrations WHERE robot_id = $1 AND number < $2 "
-                 "ORDER BY number DESC LIMIT $3",
-                 robot_id, before, start.size + 1));
-  return ReadPage<v1::Calibration>(id, start.size, *rows, [](const sql::Statement& row) {
-    return ReadMessage<v1::Calibration>(row, 1);
-  });
+                 "ORDER BY number DESC",
+                 robot_id, before));
+  return ReadFilteredPage<v1::Calibration>(
+      id, start.size, *rows, filter,
+      [&](const sql::Statement& row) -> absl::StatusOr<v1::Calibration> {
+        TRUEPOSE_ASSIGN_OR_RETURN(auto calibration, ReadMessage<v1::Calibration>(row, 1));
+        TRUEPOSE_RETURN_IF_ERROR(FillRelease(snapshot, calibration));
+        return calibration;
+      });
 }
 
 }  // namespace truepose::store

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "absl/status/statusor.h"
+#include "server/store/list.h"
 #include "server/store/page.h"
 #include "server/store/transaction.h"
 #include "truepose/v1/calibration.pb.h"
@@ -28,8 +29,8 @@ absl::StatusOr<v1::Calibration> InsertCalibration(Transaction& transaction,
 absl::StatusOr<v1::Calibration> GetCalibration(Snapshot& snapshot, std::string_view name);
 // Newest first by number, without residuals and covariance. `robot_name` is required. @returns
 // kNotFound for an unknown robot.
-absl::StatusOr<Page<v1::Calibration>> ListCalibrations(Snapshot& snapshot,
-                                                       std::string_view robot_name,
-                                                       const PageRequest& request);
+absl::StatusOr<Page<v1::Calibration>> ListCalibrations(
+    Snapshot& snapshot, std::string_view robot_name, const PageRequest& request,
+    const ListFilter<v1::Calibration>& filter = {});
 
 }  // namespace truepose::store

@@ -6,6 +6,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
+#include "server/store/events.h"
 #include "server/store/frozen_input.h"
 #include "server/store/keys.h"
 #include "server/store/list.h"
@@ -142,9 +143,13 @@ absl::Status UpdateJob(Transaction& transaction, v1::CalibrationJob& job, Lease 
   TRUEPOSE_ASSIGN_OR_RETURN(const Key key, JobKey(transaction, job.name()));
   job.set_revision(transaction.revision());
   job.set_etag(ToEtag(job.revision()));
-  return sql::Run(transaction.sql(),
-                  "UPDATE jobs SET state = $2, lease = $3, message = $4 WHERE sequence = $1", key,
-                  static_cast<int>(job.state()), lease, sql::BlobView{ToBlob(job)});
+  TRUEPOSE_RETURN_IF_ERROR(sql::Run(
+      transaction.sql(), "UPDATE jobs SET state = $2, lease = $3, message = $4 WHERE sequence = $1",
+      key, static_cast<int>(job.state()), lease, sql::BlobView{ToBlob(job)}));
+  TRUEPOSE_ASSIGN_OR_RETURN(const std::string robot_id, ParseRobotName(job.robot(), "robot"));
+  return RecordEvent(
+      transaction,
+      {.kind = v1::KIND_JOB, .robot_id = robot_id, .name = job.name(), .deleted = false}, job);
 }
 
 absl::StatusOr<Lease> GetLease(Snapshot& snapshot, std::string_view name) {

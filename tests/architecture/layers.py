@@ -13,7 +13,7 @@ _CORE_ORDER = (
     ("core/models", "core/measurement"),
     ("core/identification", "core/compensation", "core/export"),
     ("core/assessment", "core/planning", "core/conversion"),  # docs/decisions/0004
-    ("core/calibrate", "core/simulation"),
+    ("core/calibrate", "core/drift", "core/simulation"),
     ("core/reproduce",),
 )
 

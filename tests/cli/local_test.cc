@@ -211,7 +211,7 @@ TEST_F(LocalTest, RequireCompleteFailsWhereReadingsDoNotSuffice) {
   lines.resize(4);
   const std::string few = folder_.Write("few.csv", absl::StrJoin(lines, "\n") + "\n");
   const Ran ran = Calibrate({"--require-complete"}, few);
-  EXPECT_EQ(ran.code, 1) << ran.err;
+  EXPECT_EQ(ran.code, 3) << ran.err;
   EXPECT_EQ(ran.out, "");
 }
 

@@ -274,8 +274,8 @@ TEST_F(RemoteTest, AFailedJobIsTheSameErrorAsLocal) {
       {"calibrate", "--robot", "ur10", "--session", kOtherUuid, "--require-complete", "--json"});
   const Ran local = RunCli({"calibrate", "--local", "--robot", robot_, "--session", few,
                             "--require-complete", "--json"});
-  EXPECT_EQ(remote.code, 1) << remote.err;
-  EXPECT_EQ(local.code, 1) << local.err;
+  EXPECT_EQ(remote.code, 3) << remote.err;
+  EXPECT_EQ(local.code, 3) << local.err;
   EXPECT_EQ(At(OneObject(remote.out), "error.code"), At(OneObject(local.out), "error.code"));
   EXPECT_EQ(At(OneObject(remote.out), "error.message"), At(OneObject(local.out), "error.message"));
 }

@@ -164,5 +164,32 @@ TEST(TimeText, IsUtc) {
   EXPECT_EQ(TimeText(time), "2023-11-14 22:13:20Z");
 }
 
+// Catches: a compliance of 2.1e-4 +- 3.4e-6 deg/(N m) printed as "0.0002 0.0000".
+TEST(ParametersTable, ShowsTwoDigitsOfTheDeviation) {
+  v1::ParameterReport parameters;
+  v1::ParameterValue& value = *parameters.add_values();
+  value.set_name("compliance2");
+  value.set_group(v1::INTERNAL);
+  value.set_identified(2.1234e-4);
+  value.set_sd(3.41e-6);
+  value.set_unit("deg/(N m)");
+  const std::string text = ParametersTable(parameters, false);
+  EXPECT_NE(text.find("0.0002123"), std::string::npos) << text;
+  EXPECT_NE(text.find("0.0000034"), std::string::npos) << text;
+}
+
+// Catches: an unexplained angle where no angle was measured.
+TEST(CalibrationText, LeavesOutAnAngleThatWasNotMeasured) {
+  v1::Calibration calibration = Calibration();
+  calibration.mutable_report()
+      ->mutable_sets()
+      ->mutable_calibration()
+      ->mutable_after()
+      ->clear_rotation_deg();
+  std::ostringstream out;
+  const std::string text = CalibrationText(calibration, {out, out});
+  EXPECT_NE(text.find("unexplained per axis: 0.284 mm; weighted"), std::string::npos) << text;
+}
+
 }  // namespace
 }  // namespace truepose::cli

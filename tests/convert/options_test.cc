@@ -155,22 +155,143 @@ TEST(Options, PartOfAStoredCalibration) {
     if (part.internal_parameters(i).name() == "dq3") continue;
     EXPECT_EQ(part.internal_parameters(i).value(), stored.internal_parameters(i).value());
   }
+  // Base and tool stand beside what the earlier calibration had, and not beside zero.
+  for (const v1::ParameterValue& value : part.report().parameters().values()) {
+    for (const v1::ParameterValue& earlier : stored.report().parameters().values()) {
+      if (value.name() != earlier.name()) continue;
+      EXPECT_NEAR(value.nominal(), earlier.identified(), 1e-9) << value.name();
+    }
+  }
   input.mutable_options()->set_calibrate("dq3,elbow");
   EXPECT_THAT(FieldsOf(RunCalibration(input).status()), ElementsAre("options.calibrate"));
+}
+
+// Commanded joints beside the measured ones, `sd` rad apart, in the rows of one role or in all.
+enum class Rows { kAll, kEven };
+void Command(double sd, Rows rows, v1::CalibrationInput* input) {
+  Random random(3);
+  for (v1::Reading& reading : *input->mutable_sessions(0)->mutable_readings()) {
+    const bool exact = rows == Rows::kEven && reading.row() % 2 == 1;
+    for (double q : reading.joints_measured())
+      reading.add_joints_commanded(exact ? q : q + sd * random.Normal());
+  }
+}
+
+// What was measured is worse than what was commanded: exchanged.
+void Exchange(v1::CalibrationInput* input) {
+  for (v1::Reading& reading : *input->mutable_sessions(0)->mutable_readings())
+    reading.mutable_joints_measured()->Swap(reading.mutable_joints_commanded());
 }
 
 // Both joint sources: the better one is kept and named.
 TEST(Options, BothJointSources) {
   v1::CalibrationInput input = SampleInput(81);
-  Random random(3);
-  for (v1::Reading& reading : *input.mutable_sessions(0)->mutable_readings()) {
-    for (double q : reading.joints_measured())
-      reading.add_joints_commanded(q + 1e-3 * random.Normal());
-  }
+  Command(1e-3, Rows::kAll, &input);
   input.mutable_options()->set_joints("both");
   const v1::Calibration calibration = MustRun(input);
   EXPECT_THAT(calibration.report().joints_compared(), HasSubstr("measured joints fit better"));
   EXPECT_EQ(calibration.report().joints_used(), "measured");
+  Exchange(&input);
+  EXPECT_EQ(MustRun(input).report().joints_used(), "commanded");
+}
+
+// Unasked, the other source is compared and the result stays, bit for bit, what it was; the better
+// one is named also when it is the one that was not used. Asked for one, nothing is compared.
+TEST(Options, OtherJointsAreComparedUnasked) {
+  v1::CalibrationInput input = SampleInput(81);
+  const std::string digest = MustRun(input).digest();
+  Command(1e-3, Rows::kAll, &input);
+  const v1::Calibration calibration = MustRun(input);
+  EXPECT_EQ(calibration.digest(), digest);
+  EXPECT_THAT(calibration.report().joints_compared(),
+              HasSubstr("measured joints fit better: RMS position of 41 calibration rows"));
+  input.mutable_options()->set_joints("measured");
+  EXPECT_EQ(MustRun(input).report().joints_compared(), "");
+  EXPECT_EQ(MustRun(input).digest(), digest);
+  Exchange(&input);
+  input.mutable_options()->clear_joints();
+  const v1::Calibration worse = MustRun(input);
+  EXPECT_EQ(worse.report().joints_used(), "measured");
+  EXPECT_THAT(worse.report().joints_compared(), HasSubstr("commanded joints fit better"));
+}
+
+// The number before a text.
+double FigureBefore(const std::string& text, const std::string& what) {
+  const size_t end = text.find(what), begin = text.rfind(' ', end - 1) + 1;
+  return end == std::string::npos ? 0 : std::stod(text.substr(begin, end - begin));
+}
+
+// The quick comparison is what two whole runs give, but for their weights: it keeps those of the
+// joints that are used, which moves the RMS with the others by one or two hundredths, where the two
+// sources differ by a factor. Would catch a fit with the other joints that is no minimum.
+TEST(Options, TheComparisonIsThatOfTwoRuns) {
+  v1::CalibrationInput input = SampleInput(81);
+  Command(1e-3, Rows::kAll, &input);
+  const std::string quick = MustRun(input).report().joints_compared();
+  for (const char* joints : {"measured", "commanded"}) {
+    input.mutable_options()->set_joints(joints);
+    const double rms = MustRun(input).report().sets().calibration().after().position_mm().rms();
+    EXPECT_NEAR(FigureBefore(quick, std::string(" mm with ") + joints), rms, 0.03 * rms);
+  }
+}
+
+// Would catch a choice by the control set: there both sources are the same, or the other one wins.
+TEST(Options, TheControlSetDoesNotChoose) {
+  v1::CalibrationInput input = SampleInput(81);
+  Command(1e-3, Rows::kEven, &input);
+  for (v1::Reading& reading : *input.mutable_sessions(0)->mutable_readings()) {
+    if (reading.row() % 2 == 1) (*reading.mutable_joints_measured())[0] += 2e-3;
+  }
+  for (const char* joints : {"", "both"}) {
+    input.mutable_options()->set_joints(joints);
+    EXPECT_THAT(MustRun(input).report().joints_compared(), HasSubstr("measured joints fit better"));
+  }
+}
+
+// The chapter's E_op is the mean of the position errors, which the simplex minimises instead.
+// Both from the same start; no worse than least squares in what it is the minimum of.
+TEST(Options, MeanErrorAsObjective) {
+  v1::CalibrationInput input = SampleInput(81);
+  input.mutable_options()->set_estimator("simplex");
+  input.mutable_options()->set_objective("least_squares");
+  const v1::CalibrationReport least = MustRun(input).report();
+  input.mutable_options()->clear_objective();
+  EXPECT_EQ(MustRun(input).report().sets().calibration().after().position_mm().mean(),
+            least.sets().calibration().after().position_mm().mean());
+  input.mutable_options()->set_objective("e_op");
+  const v1::CalibrationReport mean = MustRun(input).report();
+  EXPECT_LT(mean.sets().calibration().after().position_mm().mean(),
+            least.sets().calibration().after().position_mm().mean());
+  for (const char* estimator : {"", "kalman", "linear_iteration"}) {
+    input.mutable_options()->set_estimator(estimator);
+    EXPECT_THAT(FieldsOf(RunCalibration(input).status()), ElementsAre("options.objective"));
+  }
+  input.mutable_options()->set_estimator("simplex");
+  input.mutable_options()->set_objective("e_or");
+  EXPECT_THAT(FieldsOf(ValidateOptions(input.options())), ElementsAre("options.objective"));
+}
+
+// Would catch an evaluation with measured joints of parameters that were found with commanded ones:
+// a constant shift between the two is an error of that size.
+TEST(Options, AnEvaluationTakesTheCalibrationsJoints) {
+  v1::CalibrationInput input = SampleInput(81);
+  for (v1::Reading& reading : *input.mutable_sessions(0)->mutable_readings()) {
+    *reading.mutable_joints_commanded() = reading.joints_measured();
+    (*reading.mutable_joints_measured())[2] += 0.01;
+  }
+  input.mutable_options()->set_joints("commanded");
+  const v1::Calibration calibration = MustRun(input);
+  const auto evaluation =
+      RunEvaluation(input.nominal(), calibration, input.sessions(0), v1::OBSERVE_UNSPECIFIED);
+  ASSERT_TRUE(evaluation.ok()) << evaluation.status();
+  EXPECT_LT(evaluation->set().after().position_mm().rms(), 0.2);
+  EXPECT_THAT(evaluation->warnings(), ::testing::IsEmpty());
+  for (v1::Reading& reading : *input.mutable_sessions(0)->mutable_readings())
+    reading.clear_joints_commanded();
+  const auto warned =
+      RunEvaluation(input.nominal(), calibration, input.sessions(0), v1::OBSERVE_UNSPECIFIED);
+  ASSERT_TRUE(warned.ok()) << warned.status();
+  EXPECT_THAT(warned->warnings(), Contains(HasSubstr("commanded joints")));
 }
 
 // Readings of one group at the same joints: the mean distance of pairs and ISO's RP are those of

@@ -92,7 +92,8 @@ class World {
 // Sums of a few products of metres: 1e-15 each; quaternions that are rounded once.
 constexpr double kExact = 1e-12;
 
-// Catches: points on one target, a point that takes another's place, a row that loses its name.
+// Catches: points on one target, a point that takes another's place, a row that loses its name,
+// points of one row that count as independent.
 TEST(ReadingsFrom, EachPointIsAReadingOfItsOwnTarget) {
   World world;
   const Eigen::Vector3d offset(0.1, 0.02, -0.05);
@@ -116,6 +117,8 @@ TEST(ReadingsFrom, EachPointIsAReadingOfItsOwnTarget) {
   EXPECT_EQ(readings.rows[1].row, 0);
   EXPECT_EQ(readings.rows[7].row, 4);
   EXPECT_EQ(readings.position[7], 4);
+  EXPECT_EQ(readings.problem.readings[0].row, readings.problem.readings[1].row);
+  EXPECT_NE(readings.problem.readings[1].row, readings.problem.readings[2].row);
   for (int i = 0; i < 15; ++i) EXPECT_EQ(readings.problem.readings[i].id, i);
   EXPECT_LT(world.LargestResidual(readings,
                                   [&](Estimate* estimate) {

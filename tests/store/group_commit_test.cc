@@ -29,7 +29,7 @@ class GroupCommit : public ::testing::Test {
     plan_ = std::make_shared<FaultPlan>();
     connection_ = Faulty(plan_)(*sql::OpenSqlite(":memory:", sql::Access::kWrite));
     ASSERT_TRUE(Migrate(*connection_, EmbeddedMigrations(), kClock, "test.db").ok());
-    ASSERT_TRUE(connection_->Execute("INSERT INTO store VALUES (1, 'epoch', 0)").ok());
+    ASSERT_TRUE(connection_->Execute("INSERT INTO store (id, epoch, revision) VALUES (1, 'epoch', 0)").ok());
     ASSERT_TRUE(
         connection_->Execute("CREATE TABLE t (id INTEGER PRIMARY KEY, part INTEGER) STRICT").ok());
     plan_->statements = 0;

@@ -110,10 +110,17 @@ absl::StatusOr<std::optional<OutputFile>> OpenOutput(const CalibrateOptions& opt
   return std::optional<OutputFile>(std::move(file));
 }
 
+bool Converged(const v1::CalibrationReport& report) {
+  return report.summary().termination().empty() || report.summary().termination() == "converged";
+}
+
 // What must not be applied is not handed on to compensation.
 std::string NextAfter(const v1::Calibration& calibration, const std::string& next_step) {
   if (calibration.report().verdict() != "do_not_apply") return next_step;
   const v1::CalibrationReport& report = calibration.report();
+  if (!Converged(report))
+    return "not converged: try --estimator levenberg_marquardt, then more different poses or "
+           "--prior tolerance";
   if (report.has_change() && report.change().names_size() > 0 && !report.change().real())
     return "go on with the earlier calibration, unless a reason above says that the readings do "
            "not fit it";
@@ -126,10 +133,13 @@ absl::Status Deliver(const Invocation& invocation, const v1::Calibration& calibr
     TRUEPOSE_ASSIGN_OR_RETURN(const std::string json, ToJson(calibration, /*pretty=*/true));
     TRUEPOSE_RETURN_IF_ERROR(output->Commit(json));
   }
-  return Reply(invocation, calibration.report(), [&] {
+  TRUEPOSE_RETURN_IF_ERROR(Reply(invocation, calibration.report(), [&] {
     return absl::StrCat(CalibrationText(calibration, invocation.console),
                         "Next: ", NextAfter(calibration, next_step), "\n");
-  });
+  }));
+  if (Converged(calibration.report())) return absl::OkStatus();
+  return AnsweredFailure(absl::StrCat("the identification did not converge: ",
+                                      calibration.report().summary().termination()));
 }
 
 void AddCalibrate(const Command& root) {

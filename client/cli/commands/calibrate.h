@@ -40,7 +40,8 @@ std::string StageText(const v1::JobProgress& progress);
 // nullopt without --output; made before the run, so that a bad place is told before the work.
 absl::StatusOr<std::optional<OutputFile>> OpenOutput(const CalibrateOptions& options);
 
-// Writes the file and prints the report; with --json the CalibrationReport alone.
+// Writes the file and prints the report; with --json the CalibrationReport alone. Then an
+// AnsweredFailure when the run did not converge.
 // @param next_step the last line for people.
 absl::Status Deliver(const Invocation& invocation, const v1::Calibration& calibration,
                      std::optional<OutputFile> output, const std::string& next_step);

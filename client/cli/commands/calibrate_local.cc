@@ -6,6 +6,7 @@
 #include "client/cli/inputs.h"
 #include "client/cli/interrupt.h"
 #include "client/cli/names.h"
+#include "client/cli/outcome.h"
 #include "client/cli/progress.h"
 #include "convert/run.h"
 #include "core/base/fault.h"
@@ -19,9 +20,13 @@ absl::StatusOr<formats::RobotFile> LoadRobotAndOptions(CalibrateOptions* options
   FaultList faults;
   absl::StatusOr<formats::RobotFile> robot = LoadRobot(options->robot, options->ends);
   faults.AddAll(robot.status());
+  const auto nominal = [&robot]() -> absl::StatusOr<v1::Nominal> {
+    if (!robot.ok()) return robot.status();
+    return robot->nominal;
+  };
   const absl::Status written =
-      WriteIdentificationOptions(options->identification, {}, &options->calibration);
-  faults.AddAll(written);
+      WriteIdentificationOptions(options->identification, {}, nominal, &options->calibration);
+  if (written != robot.status()) faults.AddAll(written);  // else told already
   if (written.ok())
     faults.AddAll(AsTyped(convert::ValidateOptions(options->calibration), *options));
   if (!faults.empty()) return faults.ToStatus();
@@ -68,7 +73,7 @@ absl::Status CalibrateLocally(const Invocation& invocation, const CalibrateOptio
   TRUEPOSE_ASSIGN_OR_RETURN(const v1::CalibrationInput input, LoadInput(invocation, options));
   TRUEPOSE_ASSIGN_OR_RETURN(std::optional<OutputFile> output, OpenOutput(options));
   const absl::StatusOr<v1::Calibration> calibration = RunWithProgress(invocation, input);
-  if (!calibration.ok()) return AsTyped(calibration.status(), options);
+  if (!calibration.ok()) return AsFaultOfInput(AsTyped(calibration.status(), options));
   return Deliver(invocation, *calibration, std::move(output), NextStep(options));
 }
 

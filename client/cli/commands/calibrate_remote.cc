@@ -30,6 +30,18 @@ absl::Status CheckNames(const CalibrateOptions& options) {
   return absl::OkStatus();
 }
 
+// The nominal robot that the job will take: that of its sessions.
+absl::StatusOr<v1::Nominal> NominalOf(const client::Client& client, const std::string& session) {
+  v1::GetSessionRequest get_session;
+  get_session.set_name(session);
+  TRUEPOSE_ASSIGN_OR_RETURN(const v1::Session found, client.GetSession(get_session));
+  v1::GetNominalRevisionRequest get_revision;
+  get_revision.set_name(found.nominal_revision());
+  TRUEPOSE_ASSIGN_OR_RETURN(const v1::NominalRevision revision,
+                            client.GetNominalRevision(get_revision));
+  return revision.nominal();
+}
+
 absl::StatusOr<v1::CalibrationJob> CreateJob(const client::Client& client,
                                              const CalibrateOptions& options) {
   v1::CreateCalibrationJobRequest request;
@@ -49,7 +61,7 @@ absl::StatusOr<v1::CalibrationJob> CreateJob(const client::Client& client,
         get.set_name(*name);
         return client.GetCalibration(get);
       },
-      request.mutable_options()));
+      [&] { return NominalOf(client, request.sessions(0)); }, request.mutable_options()));
   return client.CreateCalibrationJob(request);
 }
 

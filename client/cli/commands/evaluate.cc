@@ -24,7 +24,7 @@ constexpr char kHint[] =
 
 struct Options {
   bool local = false;
-  std::string calibration, session, robot, observe, euler;
+  std::string calibration, session, robot, observe, euler, fixture, feature_column;
   formats::UrdfEnds ends;
 };
 
@@ -58,12 +58,24 @@ void WarnOfOwnSession(const v1::Calibration& calibration, const std::string& ses
       "this session had a part in the calibration: the figures are no independent check");
 }
 
+// Another fixture, or another column, than the calibration's own.
+absl::Status SetFixture(const Options& options, v1::Calibration* calibration) {
+  if (!options.fixture.empty()) {
+    TRUEPOSE_ASSIGN_OR_RETURN(*calibration->mutable_options()->mutable_fixture(),
+                              LoadFixture(options.fixture));
+  }
+  if (!options.feature_column.empty())
+    calibration->mutable_options()->set_feature_column(options.feature_column);
+  return absl::OkStatus();
+}
+
 absl::Status EvaluateLocally(const Invocation& invocation, const Options& options,
                              v1::Observe observe) {
   if (options.robot.empty()) return UsageError("--local needs --robot FILE");
   TRUEPOSE_ASSIGN_OR_RETURN(const formats::RobotFile robot, LoadRobot(options.robot, options.ends));
   TRUEPOSE_ASSIGN_OR_RETURN(v1::Calibration calibration, LoadCalibration(options.calibration));
   TRUEPOSE_RETURN_IF_ERROR(CheckBelongsTogether(calibration, robot.nominal, options.robot));
+  TRUEPOSE_RETURN_IF_ERROR(SetFixture(options, &calibration));
   TRUEPOSE_ASSIGN_OR_RETURN(
       const std::vector<v1::SessionInput> sessions,
       LoadSessions({options.session}, robot.nominal, options.euler, invocation.console));
@@ -82,6 +94,10 @@ absl::Status EvaluateOnServer(const Invocation& invocation, const Options& optio
         "--robot and --euler are for --local; on a server the calibration and the session know "
         "both");
   }
+  if (!options.fixture.empty() || !options.feature_column.empty())
+    return UsageError(
+        "--fixture and --feature-column are for --local; on a server those of the "
+        "calibration count");
   v1::EvaluateRequest request;
   TRUEPOSE_ASSIGN_OR_RETURN(*request.mutable_calibration(), CalibrationName(options.calibration));
   request.set_session(SessionName(options.session));
@@ -115,6 +131,10 @@ void AddEvaluate(const Command& root) {
               "Use only the pose, point or point_axis; default: all there is")
       .Option("--euler", "CONVENTION", &options->euler,
               "With --local: read rx_,ry_,rz_ columns, such as xyz-intrinsic")
+      .Option("--fixture", "FILE", &options->fixture,
+              "With --local: places in which the tool was put; default: the calibration's")
+      .Option("--feature-column", "COLUMN", &options->feature_column,
+              "With --local: column with the name of the feature; default: the calibration's")
       .Footer(
           "Base and tool are fitted on the session's own rows.\n\nExamples:\n"
           "  truepose evaluate --calibration ur10#1 --session "

@@ -27,12 +27,14 @@ absl::StatusOr<v1::Calibration> PriorCalibrationOf(const std::string& text,
 }
 
 absl::Status WritePrior(const std::string& text, const FetchCalibration& fetch,
-                        v1::CalibrationOptions* message) {
+                        const FetchNominal& nominal, v1::CalibrationOptions* message) {
   if (text.empty() || text == "none" || text == "tolerance") {
     message->set_prior(text);
     return absl::OkStatus();
   }
   TRUEPOSE_ASSIGN_OR_RETURN(const v1::Calibration calibration, PriorCalibrationOf(text, fetch));
+  TRUEPOSE_ASSIGN_OR_RETURN(const v1::Nominal expected, nominal());
+  TRUEPOSE_RETURN_IF_ERROR(CheckPrior(calibration, expected));
   message->set_prior("calibration");
   *message->mutable_prior_calibration() = convert::PriorOf(calibration);
   // A partial recalibration speaks of the parameters that are there.
@@ -118,7 +120,7 @@ Renaming IdentificationNames() {
 }
 
 absl::Status WriteIdentificationOptions(const IdentificationOptions& options,
-                                        const FetchCalibration& fetch,
+                                        const FetchCalibration& fetch, const FetchNominal& nominal,
                                         v1::CalibrationOptions* message) {
   message->set_model(options.model);
   message->set_estimator(options.estimator);
@@ -133,7 +135,7 @@ absl::Status WriteIdentificationOptions(const IdentificationOptions& options,
   if (!options.fixture.empty()) {
     TRUEPOSE_ASSIGN_OR_RETURN(*message->mutable_fixture(), LoadFixture(options.fixture));
   }
-  return WritePrior(options.prior, fetch, message);
+  return WritePrior(options.prior, fetch, nominal, message);
 }
 
 }  // namespace truepose::cli

@@ -31,11 +31,15 @@ Renaming IdentificationNames();
 // A calibration named by --prior that is no file, such as ur10#3.
 using FetchCalibration = std::function<absl::StatusOr<v1::Calibration>(const std::string& name)>;
 
+// The nominal robot that a calibration of --prior must be of.
+using FetchNominal = std::function<absl::StatusOr<v1::Nominal>()>;
+
 // Writes them into the message; reads the files of --prior and --fixture.
-// @param fetch empty where there is no server.
-// @returns kInvalidArgument with faults of the files or of numbers.
+// @param fetch empty where there is no server. @param nominal asked for a --prior only.
+// @returns kInvalidArgument with faults of the files or of numbers, and for a prior that was edited
+// or is of another nominal robot; what fetch and nominal return.
 absl::Status WriteIdentificationOptions(const IdentificationOptions& options,
-                                        const FetchCalibration& fetch,
+                                        const FetchCalibration& fetch, const FetchNominal& nominal,
                                         v1::CalibrationOptions* message);
 
 }  // namespace truepose::cli

@@ -47,7 +47,7 @@ absl::Status StatusOfError(const v1::JobError& error) {
   FaultList faults;
   for (const v1::Fault& fault : error.faults())
     faults.Add(fault.field(), fault.found(), fault.expected());
-  if (!faults.empty()) return faults.ToStatus(CodeOf(error));
+  if (!faults.empty()) return AsFaultOfInput(faults.ToStatus(CodeOf(error)));
   return absl::Status(CodeOf(error), error.message());
 }
 

@@ -2,6 +2,7 @@
 #include "server/services/bindings/binding.h"
 #include "server/services/calibrations.h"
 #include "server/services/jobs.h"
+#include "server/services/release.h"
 #include "truepose/v1/services.grpc.pb.h"
 
 namespace truepose::services {
@@ -28,13 +29,19 @@ class CalibrationBinding final : public v1::CalibrationService::CallbackService 
   CalibrationBinding(const CallContext& call, const Executors& executors, rpc::Drain& drain)
       : call_(call), handlers_(executors.handlers), compute_(executors.compute), drain_(drain) {}
 
-  TRUEPOSE_BIND(CreateCalibrationJob, CreateCalibrationJobRequest, CalibrationJob, handlers_)
+  // A preview computes; what is only stored must not wait behind it.
+  TRUEPOSE_BIND(CreateCalibrationJob, CreateCalibrationJobRequest, CalibrationJob,
+                (request->validate_only() ? compute_ : handlers_))
   TRUEPOSE_BIND(GetCalibrationJob, GetCalibrationJobRequest, CalibrationJob, handlers_)
   TRUEPOSE_BIND(ListCalibrationJobs, ListCalibrationJobsRequest, ListCalibrationJobsResponse,
                 handlers_)
   TRUEPOSE_BIND(CancelCalibrationJob, CancelCalibrationJobRequest, CalibrationJob, handlers_)
   TRUEPOSE_BIND(GetCalibration, GetCalibrationRequest, Calibration, handlers_)
   TRUEPOSE_BIND(ListCalibrations, ListCalibrationsRequest, ListCalibrationsResponse, handlers_)
+  TRUEPOSE_BIND(ApproveCalibration, ApproveCalibrationRequest, Calibration, handlers_)
+  TRUEPOSE_BIND(RejectCalibration, RejectCalibrationRequest, Calibration, handlers_)
+  TRUEPOSE_BIND(ActivateCalibration, ActivateCalibrationRequest, Calibration, handlers_)
+  TRUEPOSE_BIND(RollBackCalibration, RollBackCalibrationRequest, Calibration, handlers_)
   TRUEPOSE_BIND(Evaluate, EvaluateRequest, Evaluation, compute_)
   TRUEPOSE_BIND(Compensate, CompensateRequest, CompensateResponse, compute_)
 

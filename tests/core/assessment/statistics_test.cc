@@ -75,6 +75,7 @@ TEST(Verdict, BootstrapIsSymmetric) {
 Identification Converged() {
   Identification identification;
   identification.summary.termination = Termination::kConverged;
+  identification.set.active = {0};  // without frames the first candidate is internal
   return identification;
 }
 

@@ -23,6 +23,7 @@ Verdict WithModelError(double position_sd_m, double rotation_sd_rad) {
   Identification identification;
   identification.model_error = {position_sd_m, rotation_sd_rad};
   identification.summary.termination = Termination::kConverged;
+  identification.set.active = {0};  // without frames the first candidate is internal
   const Improved sets;
   return Judge(identification, ParameterSet(), sets.before, sets.after);
 }
@@ -48,6 +49,47 @@ TEST(Verdict, WhatRealRobotsLeaveIsApplied) {
     EXPECT_EQ(verdict.decision, Decision::kApply) << position << " " << rotation;
     EXPECT_EQ(verdict.reasons.size(), 1u);
   }
+}
+
+Verdict OfRatio(double ratio, const std::vector<int>& active) {
+  Identification identification;
+  identification.summary.termination = Termination::kConverged;
+  identification.estimate.X_MB.resize(1);
+  identification.estimate.X_FT.resize(1);
+  identification.set.active = active;
+  const Improved sets;
+  std::vector<PoseError> after = sets.before;
+  for (PoseError& error : after) error.position_m *= ratio;
+  return Judge(identification, ParameterSet(), sets.before, after);
+}
+
+// Catches "apply" for a fit of base and tool alone, whose errors before and after differ by 1e-7 of
+// themselves; and a margin so wide that a real gain of a thousandth is refused.
+TEST(Verdict, RoundOffIsNoImprovement) {
+  EXPECT_EQ(OfRatio(1 - 1e-7, {0, 12}).decision, Decision::kDoNotApply);
+  EXPECT_EQ(OfRatio(1, {0, 12}).decision, Decision::kDoNotApply);
+  EXPECT_EQ(OfRatio(0.999, {0, 12}).decision, Decision::kApply);
+}
+
+// Catches a calibration of base and tool that is sent to the robot; index 12 is the first internal
+// candidate beside one base and one tool.
+TEST(Verdict, NothingOfTheRobot) {
+  const Verdict verdict = OfRatio(0.5, {0, 11});
+  EXPECT_EQ(verdict.decision, Decision::kDoNotApply);
+  EXPECT_NE(verdict.reasons.back().find("nothing of the robot was identified"), std::string::npos);
+  EXPECT_EQ(OfRatio(0.5, {0, 11, 12}).decision, Decision::kApply);
+}
+
+// Catches advice on units for a run that merely did not converge.
+TEST(Verdict, NotConvergedSaysWhatToTry) {
+  Identification identification;
+  identification.summary.termination = Termination::kIterationLimit;
+  identification.set.active = {0};
+  const Improved sets;
+  const Verdict verdict = Judge(identification, ParameterSet(), sets.before, sets.after);
+  EXPECT_EQ(verdict.decision, Decision::kDoNotApply);
+  EXPECT_NE(verdict.reasons.back().find("levenberg_marquardt"), std::string::npos);
+  EXPECT_EQ(verdict.reasons.back().find("units"), std::string::npos);
 }
 
 }  // namespace

@@ -76,6 +76,11 @@ TEST(Home, EffectsAreRefusedByName) {
   const auto home = HomeOf(robot, model, lambda, JointSense::kChain);
   ASSERT_EQ(FaultsOf(home.status()).size(), 1u);
   EXPECT_THAT(FaultsOf(home.status())[0].found, HasSubstr("harmonic1_cos4"));
+  // One cause is one fault, however many numbers it is.
+  for (const JointEffect& effect : model.effects) lambda(effect.parameter) = 1e-4;
+  const auto many = HomeOf(robot, model, lambda, JointSense::kChain);
+  ASSERT_EQ(FaultsOf(many.status()).size(), 1u);
+  EXPECT_THAT(FaultsOf(many.status())[0].found, HasSubstr(" and 9 more"));
 }
 
 }  // namespace

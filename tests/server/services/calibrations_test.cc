@@ -55,7 +55,8 @@ TEST_F(CalibrationsTest, GetTellsUnknownFromMalformed) {
 
 // Would catch a list that carries megabytes of residuals, or the wrong order.
 TEST_F(CalibrationsTest, ListIsNewestFirstWithoutResiduals) {
-  AddCalibration("ur10", kSession1, kJob2);
+  AddSimulatedSession(kSession2, "ur10", testing::kCalibrationPoses);
+  AddCalibration("ur10", kSession2, kJob2);
   const auto listed =
       ListCalibrations(call(), Parse<v1::ListCalibrationsRequest>(R"pb(robot: "robots/ur10")pb"));
   ASSERT_THAT(listed, IsOk());

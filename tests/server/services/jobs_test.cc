@@ -118,6 +118,62 @@ TEST_F(JobsTest, CreateNamesEverySessionThatCannotBeUsed) {
   EXPECT_THAT(message, ::testing::HasSubstr("robots/ur10/nominals/2"));
 }
 
+// Would catch a preview that stores or runs something, or that says nothing of the readings.
+TEST_F(JobsTest, ValidateOnlyTellsWhatWouldBeIdentified) {
+  AddSimulatedSession(kSession1, "ur10", 60);
+  auto request = Request(kJob1, {kSession1});
+  request.set_validate_only(true);
+  const auto job = CreateCalibrationJob(call(), request);
+  ASSERT_THAT(job, IsOk());
+  EXPECT_EQ(job->state(), v1::JOB_STATE_UNSPECIFIED);
+  EXPECT_EQ(job->preview().readings(), 60);
+  EXPECT_EQ(job->preview().counts().complete(), 30) << "4 R + 6, Eq. 11";
+  EXPECT_EQ(job->preview().counts().rank(), job->preview().identifiable_size());
+  EXPECT_GT(job->preview().identifiable_size(), 12) << "more than base and tool";
+  EXPECT_GT(job->preview().redundancies_size(), 0) << "parallel axes";
+  EXPECT_THAT(GetCalibrationJob(call(), Named<v1::GetCalibrationJobRequest>(JobName(kJob1))),
+              HasCode(absl::StatusCode::kNotFound));
+  request.set_validate_only(false);
+  const auto created = CreateCalibrationJob(call(), request);
+  ASSERT_THAT(created, IsOk());
+  EXPECT_EQ(created->input_digest(), job->input_digest());
+  EXPECT_FALSE(created->has_preview());
+}
+
+// Would catch a preview of what a create refuses.
+TEST_F(JobsTest, ValidateOnlyRefusesWhatACreateRefuses) {
+  AddSession(kSession1, "ur10", 3);
+  auto request = Request(kJob1, {kSession1});
+  request.set_validate_only(true);
+  EXPECT_THAT(CreateCalibrationJob(call(), request),
+              HasCode(absl::StatusCode::kFailedPrecondition));
+  AddSealedSession(kSession2, "ur10");
+  ASSERT_THAT(CreateCalibrationJob(call(), Request(kJob1, {kSession2})), IsOk());
+  auto other = Request(kJob1, {kSession2});
+  other.mutable_options()->set_split("every:2");
+  other.set_validate_only(true);
+  EXPECT_THAT(CreateCalibrationJob(call(), other), HasCode(absl::StatusCode::kAlreadyExists));
+}
+
+// Would catch fields of the request that don't reach the job.
+TEST_F(JobsTest, CreateKeepsPriorityDeadlineAndRequest) {
+  AddSealedSession(kSession1, "ur10");
+  auto request = Request(kJob1, {kSession1});
+  request.set_priority(40);
+  request.mutable_deadline()->set_seconds(4'000'000'000);
+  request.set_recalibration_request("robots/ur10/recalibrationRequests/2");
+  const auto job = CreateCalibrationJob(call(), request);
+  ASSERT_THAT(job, IsOk());
+  EXPECT_EQ(job->priority(), 40);
+  EXPECT_EQ(job->deadline().seconds(), 4'000'000'000);
+  EXPECT_EQ(job->recalibration_request(), "robots/ur10/recalibrationRequests/2");
+  EXPECT_NE(job->etag(), "");
+  request.set_job_id(kJob2);
+  request.set_priority(-101);
+  request.mutable_deadline()->set_seconds(-1);
+  EXPECT_THAT(CreateCalibrationJob(call(), request), HasFaultsAt(Fields{"priority", "deadline"}));
+}
+
 TEST_F(JobsTest, GetTellsUnknownFromMalformed) {
   EXPECT_THAT(GetCalibrationJob(call(), Named<v1::GetCalibrationJobRequest>(JobName(kUnknown))),
               HasCode(absl::StatusCode::kNotFound));

@@ -99,6 +99,8 @@ v1::Calibration HandlerTest::AddCalibration(const std::string& robot_id,
   v1::Calibration calibration = ExampleCalibration();
   calibration.set_nominal_revision(job->nominal_revision());
   *calibration.mutable_sessions() = job->sessions();
+  // Equal content would be stored once.
+  calibration.mutable_report()->add_warnings(absl::StrCat("of ", job_id));
   const auto stored = store_->Write([&](store::Transaction& transaction) {
     return store::InsertCalibration(transaction, *job, calibration);
   });
