@@ -271,7 +271,7 @@ TEST(ReadingFaults, TheShortCheckSaysWhatTheWholeOneSays) {
         << readings[0].DebugString();
     sound += whole.ok();
   }
-  EXPECT_GT(sound, 1'000) << "the draw is nearly always at fault";
+  EXPECT_GT(sound, 500) << "the draw is hardly ever without a fault";
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ class Spool : public client::ReadingSpool {
     std::lock_guard lock(mutex_);
     for (int i = 0; i < count; ++i) {
       v1::Reading reading;
-      for (int joint = 0; joint < 6; ++joint) reading.add_joints_measured(0.1);
+      for (int joint = 0; joint < 5; ++joint) reading.add_joints_measured(0.1);
       reading.mutable_position_m()->set_x(1e-3 * static_cast<double>(entries_.size() + 1));
       entries_.emplace_back(session, reading);
     }
