@@ -166,6 +166,7 @@ absl::StatusOr<CalibrationResult> Calibrate(const CalibrationProblem& problem,
           options.identify,
           {},
           {}};
+  run.identify.X_FT_nominal = problem.X_FT_nominal.value_or(Pose{});
   TRUEPOSE_RETURN_IF_ERROR(CheckEffects(*problem.robot, run.part.problem, result.effect_groups));
   TRUEPOSE_RETURN_IF_ERROR(Prepare(result.model, &run));
   TRUEPOSE_RETURN_IF_ERROR(FindBefore(&run, &result));

@@ -10,19 +10,11 @@
 #include "absl/strings/str_cat.h"
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
+#include "core/identification/frame_gauge.h"
 #include "core/identification/weighted_solve.h"
 
 namespace truepose {
 namespace {
-
-IdentifiableSet ExternalSet(const Eigen::MatrixXd& J, const Problem& problem,
-                            IdentifiabilityOptions options) {
-  ParameterSet external;
-  const ParameterSet all = Candidates(problem);
-  for (int i = 0; i < problem.FirstInternal(); ++i) external.Add(all[i]);
-  options.use_sd_bounds = false;
-  return Identifiable(J.leftCols(problem.FirstInternal()), external, options);
-}
 
 void Finish(const Problem& problem, Identification* result) {
   const WhitenedSystem system = Whitened(problem, result->estimate, result->model_error);
@@ -200,8 +192,9 @@ absl::StatusOr<Identification> FitFrames(const Problem& problem, const Estimate&
   direct.solve.estimator = Estimator::kLevenbergMarquardt;
   Identification result;
   result.estimate = start;
-  result.set = ExternalSet(Whitened(frames_alone, start, result.model_error).J, problem,
-                           options.identifiability);
+  SetFreeToolsToNominal(frames_alone, options.X_FT_nominal, options.free, options.identifiability,
+                        &result.estimate);
+  result.set = FrameSet(frames_alone, result.estimate, result.model_error, options.identifiability);
   if (!options.free.empty()) {
     const std::set<int> free(options.free.begin(), options.free.end());
     std::erase_if(result.set.active, [&](int candidate) { return !free.contains(candidate); });

@@ -38,6 +38,8 @@ struct IdentifyOptions {
   Loss loss = Loss::kNone;
   // Candidates that may move; empty = all. The others stay where the start has them.
   std::vector<int> free;
+  // Where coordinates of targets stay that nothing tells from motions of the base (frame_gauge.h).
+  Pose X_FT_nominal;
   // s_model of an earlier calibration in place of an estimate, for readings too few to give one.
   std::optional<ModelError> known_model_error;
   // Multiplies the covariance by the weighted residual variance, the variance factor: for weights
@@ -46,6 +48,8 @@ struct IdentifyOptions {
 };
 
 // Fits base and tool alone, lambda as given: "before", and how a calibration meets a new session.
+// Which of their coordinates the readings determine is judged at nominal lambda; the others of the
+// targets go to options.X_FT_nominal.
 // @param start frames near the minimum (FindStart). @returns kCancelled; not converging is in the
 // summary.
 absl::StatusOr<Identification> FitFrames(const Problem& problem, const Estimate& start,
