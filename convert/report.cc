@@ -105,7 +105,9 @@ v1::ParameterReport ParametersOf(const CalibrationResult& result, const Pose& X_
   return report;
 }
 
+// model_sd is what stays unexplained: in joint space, where the weights have no s_model, by R.
 v1::Summary SummaryOf(const Identification& identification) {
+  const ModelError unexplained = UnexplainedOf(identification);
   v1::Summary summary;
   summary.set_termination(Name(identification.summary.termination));
   summary.set_iterations(identification.summary.iterations);
@@ -115,8 +117,8 @@ v1::Summary SummaryOf(const Identification& identification) {
   summary.set_rank(static_cast<int>(identification.set.active.size()));
   summary.set_condition(identification.set.condition);
   summary.set_weighted_residual_variance(identification.weighted_residual_variance);
-  summary.set_model_sd_position_mm(identification.model_error.position_sd_m * kMmPerM);
-  summary.set_model_sd_rotation_deg(identification.model_error.rotation_sd_rad * kDegPerRad);
+  summary.set_model_sd_position_mm(unexplained.position_sd_m * kMmPerM);
+  summary.set_model_sd_rotation_deg(unexplained.rotation_sd_rad * kDegPerRad);
   summary.set_message(identification.summary.message);
   return summary;
 }

@@ -119,7 +119,7 @@ Verdict Judge(const Identification& identification, const ParameterSet& paramete
   JudgeControlSize(control_before.size(), &verdict);
   if (!control_before.empty()) JudgeControl(control_before, control_after, &verdict);
   JudgeSizes(identification.estimate.lambda, parameters, &verdict);
-  JudgeUnexplained(identification.model_error, &verdict);
+  JudgeUnexplained(UnexplainedOf(identification), &verdict);
   if (identification.summary.termination != Termination::kConverged) {
     verdict.decision = Decision::kDoNotApply;
     verdict.reasons.push_back(

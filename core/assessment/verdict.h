@@ -29,10 +29,10 @@ Interval BootstrapRatio(const std::vector<PoseError>& before, const std::vector<
 
 // do_not_apply when the solver did not converge, when that interval does not lie below 1, or when a
 // correction exceeds 100 mm or 10 deg: no robot is that wrong, so joints, units or robot file are;
-// nor when s_model exceeds 5 mm or 0.5 deg per axis: real arms leave below 1 mm, so units, joints,
-// anchors or the robot file are wrong, or the start was, whatever the ratio says;
-// apply_within_volume when parameters stayed nominal for want of readings, or when there are
-// fewer than 10 control rows; apply otherwise.
+// nor when what stays unexplained (identify.h) exceeds 5 mm or 0.5 deg per axis: real arms leave
+// below 1 mm, so units, joints, anchors or the robot file are wrong, or the start was, whatever the
+// ratio says; apply_within_volume when parameters stayed nominal for want of readings, or when
+// there are fewer than 10 control rows; apply otherwise.
 // @param parameters those of the model, beside identification.estimate.lambda.
 Verdict Judge(const Identification& identification, const ParameterSet& parameters,
               const std::vector<PoseError>& control_before,

@@ -94,7 +94,7 @@ Verdict JudgeResult(const CalibrationProblem& problem, const Part& part,
                           result.control.after);
   JudgeVolume(ParameterUncertainty(Measured(part.problem), result.identification),
               ParameterUncertainty(Elsewhere(part.problem, *problem.robot), result.identification),
-              result.identification.model_error.position_sd_m * std::sqrt(3.0), &verdict);
+              UnexplainedOf(result.identification).position_sd_m * std::sqrt(3.0), &verdict);
   JudgeSelection(result.selection, &verdict);
   if (result.change) {
     const int redundancy =

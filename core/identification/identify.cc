@@ -34,6 +34,27 @@ void Finish(const Problem& problem, Identification* result) {
   }
 }
 
+VarianceFactor FactorOf(const Problem& problem, const Identification& identification) {
+  double sums[2] = {0, 0};
+  int rows[2] = {0, 0};
+  for (Reading reading : problem.readings) {
+    reading.weight = 1;
+    const Residual variances =
+        CovarianceOf(problem, reading, identification.estimate, identification.model_error)
+            .diagonal();
+    const int positions = PositionRowsOf(reading), rotations = RotationRowsOf(reading);
+    sums[0] += variances.head(positions).sum();
+    sums[1] += variances.tail(rotations).sum();
+    rows[0] += positions;
+    rows[1] += rotations;
+  }
+  const double factor = identification.weighted_residual_variance;
+  const auto sd = [&](int kind) {
+    return std::sqrt(factor * sums[kind] / std::max(rows[kind], 1));
+  };
+  return {factor, {sd(0), sd(1)}};
+}
+
 // Whether a candidate is a base correction of a placement that is known by contact only.
 bool IsFreeByContact(const Problem& problem, int candidate) {
   if (candidate >= problem.FirstOfTool(0)) return false;
@@ -173,6 +194,11 @@ absl::Status CheckFrames(const Problem& problem, const IdentifiableSet& generic,
   return faults.ToStatus(absl::StatusCode::kFailedPrecondition);
 }
 
+ModelError UnexplainedOf(const Identification& identification) {
+  return identification.variance_factor ? identification.variance_factor->unexplained
+                                        : identification.model_error;
+}
+
 Eigen::MatrixXd ParameterCovariance(const Eigen::MatrixXd& J, const std::vector<int>& active) {
   Eigen::MatrixXd columns = J(Eigen::all, active);
   const Eigen::VectorXd scale = columns.colwise().norm().cwiseInverse();
@@ -218,7 +244,10 @@ absl::StatusOr<Identification> Identify(const Problem& problem, const Identifiab
   TRUEPOSE_RETURN_IF_ERROR(SolveKept(before, options, hooks, &weighed, &result));
   MarkStructural(problem, generic, &result.set);
   Finish(weighed, &result);
-  if (options.scale_covariance) result.covariance *= result.weighted_residual_variance;
+  if (options.scale_covariance) {
+    result.variance_factor = FactorOf(weighed, result);
+    result.covariance *= result.variance_factor->value;
+  }
   return result;
 }
 

@@ -17,6 +17,13 @@
 
 namespace truepose {
 
+// Of weights whose scale is not sure: the covariance was multiplied by `value`, the weighted
+// residual variance, and R is to be multiplied by it wherever both are used.
+struct VarianceFactor {
+  double value = 1;
+  ModelError unexplained;  // root of the readings' mean variance of R times the factor, per axis
+};
+
 struct Identification {
   Estimate estimate;
   ModelError model_error;
@@ -26,6 +33,7 @@ struct Identification {
   std::vector<double> weights;  // of the readings; all 1 without a robust loss
   int rows = 0;                 // measured values; those of a prior are not among them
   double weighted_residual_variance = 0;  // 2 cost / (rows - active): 1 where the weights settled
+  std::optional<VarianceFactor> variance_factor;  // with IdentifyOptions::scale_covariance
 };
 
 struct IdentifyOptions {
@@ -71,6 +79,9 @@ absl::Status CheckFrames(const Problem& problem, const IdentifiableSet& generic,
 absl::StatusOr<Identification> Identify(const Problem& problem, const IdentifiableSet& generic,
                                         const Identification& before,
                                         const IdentifyOptions& options, const Hooks& hooks);
+
+// What the parameters leave unexplained: s_model, or that of the variance factor.
+ModelError UnexplainedOf(const Identification& identification);
 
 // (J'J)^-1 of the active columns, by QR of the columns scaled to norm 1. @param J rows >= active.
 Eigen::MatrixXd ParameterCovariance(const Eigen::MatrixXd& J, const std::vector<int>& active);
