@@ -48,11 +48,10 @@ void JudgeVolume(double uncertainty_measured_m, double uncertainty_elsewhere_m,
 // @param path of the selection; empty = none was made.
 void JudgeSelection(const std::vector<SelectionStep>& path, Verdict* verdict);
 
-// do_not_apply when the readings of a partial recalibration don't fit the parameters that are held:
-// the weighted residual variance, 1 with the earlier calibration's s_model, is beyond chance (p <
-// 0.001).
-// @param redundancy measured values - parameters.
-void JudgeHeldFit(double weighted_residual_variance, int redundancy, Verdict* verdict);
+// do_not_apply when the readings of a partial recalibration don't fit the parameters that are held,
+// uncertain as those are, beyond chance: p < 0.001.
+// @param chi_square, degrees_of_freedom, p_value of that test (calibrate/change.h).
+void JudgeHeldFit(double chi_square, int degrees_of_freedom, double p_value, Verdict* verdict);
 
 // do_not_apply when parameters found anew don't differ from the stored ones beyond chance.
 void JudgeChange(double p_value, bool real, Verdict* verdict);

@@ -181,9 +181,9 @@ absl::StatusOr<CalibrationResult> Calibrate(const CalibrationProblem& problem,
     TRUEPOSE_RETURN_IF_ERROR(CheckComplete(result.identification.set, result.candidates));
   if (HoldsTheRest(options)) {
     TRUEPOSE_RETURN_IF_ERROR(CheckNamed(run.scope, result.identification.set, result.candidates));
-    result.change = TestChange(run.part.problem, run.start_lambda,
-                               InternalCovariance(*options.stored, result.model.parameters),
-                               &result.identification);
+    const Eigen::MatrixXd stored = InternalCovariance(*options.stored, result.model.parameters);
+    result.held_fit = TestHeldFit(run.part.problem, stored, result.identification);
+    result.change = TestChange(run.part.problem, run.start_lambda, stored, &result.identification);
   }
   TRUEPOSE_RETURN_IF_ERROR(
       Assess(problem, run.part, run.stages.For("assessment", 0.9, 1), &result));

@@ -82,6 +82,7 @@ struct CalibrationResult {
   PredictedAccuracy predicted;       // on control rows in frames that the calibration rows have
   PlaceErrors control_places;        // of contact control rows
   std::optional<ChangeTest> change;  // of a partial recalibration from a stored calibration
+  std::optional<HeldFit> held_fit;   // beside it
   Verdict verdict;
 };
 
