@@ -65,9 +65,12 @@ Eigen::VectorXd ShownVariances(const CalibrationResult& result) {
   const std::vector<int>& active = result.identification.set.active;
   const Eigen::MatrixXd& covariance = result.identification.covariance;
   Eigen::VectorXd variances = covariance.diagonal();
+  const size_t frames =
+      result.identification.estimate.X_MB.size() + result.identification.estimate.X_FT.size();
+  const int first_of_offsets = kFrameParameters * static_cast<int>(frames);
   for (size_t i = 0; i + 2 < active.size() && i + 2 < static_cast<size_t>(covariance.rows()); ++i) {
-    const bool rotation = result.candidates[active[i]].role == ParameterRole::kExternal &&
-                          active[i] % kFrameParameters == 3 && active[i + 2] == active[i] + 2;
+    const bool rotation = active[i] < first_of_offsets && active[i] % kFrameParameters == 3 &&
+                          active[i + 2] == active[i] + 2;
     if (!rotation) continue;
     Eigen::Vector3d r;
     for (int k = 0; k < 3; ++k) r(k) = ValuesOf(result, active[i] + k, Pose{}).identified;

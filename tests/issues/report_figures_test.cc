@@ -1,0 +1,69 @@
+// Figures of a report that were not those of the calibration.
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/geometry/pose.h"
+#include "tests/convert/samples.h"
+
+namespace truepose::convert {
+namespace {
+
+v1::Calibration MustRun(const v1::CalibrationInput& input) {
+  auto calibration = RunCalibration(input, {});
+  EXPECT_TRUE(calibration.ok()) << calibration.status();
+  return *std::move(calibration);
+}
+
+// Turns readings into lengths of six beams with constants of their own, from four known anchors.
+void SeeBeams(v1::CalibrationInput* input) {
+  const Eigen::Vector3d anchors[] = {
+      {0.5, 0.5, 0.1}, {1, -0.7, 0.3}, {-0.6, 0.9, 0.8}, {0.2, 0.2, 1.5}};
+  for (int k = 0; k < 4; ++k) {
+    v1::Feature* feature = input->mutable_options()->mutable_fixture()->add_features();
+    feature->set_name("anchor " + std::to_string(k));
+    feature->set_kind(v1::FEATURE_POINT);
+    v1::Pose* pose = feature->mutable_pose();
+    pose->set_x_m(anchors[k].x());
+    pose->set_y_m(anchors[k].y());
+    pose->set_z_m(anchors[k].z());
+    pose->set_qw(1);
+  }
+  int i = 0;
+  for (v1::Reading& reading : *input->mutable_sessions(0)->mutable_readings()) {
+    const v1::Vector3& p = reading.position_m();
+    const int beam = i / 4 % 6;
+    reading.set_distance_m((Eigen::Vector3d(p.x(), p.y(), p.z()) - anchors[i % 4]).norm() +
+                           0.3 * (beam - 2));
+    reading.set_anchor("anchor " + std::to_string(i % 4));
+    reading.set_beam("beam " + std::to_string(beam));
+    reading.clear_position_m();
+    reading.clear_orientation();
+    ++i;
+  }
+}
+
+// From the fourth constant on the deviations were mixed as if three constants were a rotation.
+TEST(ReportFigures, DeviationsOfConstantsAreThoseOfTheCovariance) {
+  v1::CalibrationInput input = SampleInput(240, "");
+  SeeBeams(&input);
+  const v1::Calibration calibration = MustRun(input);
+  const auto& values = calibration.report().parameters().values();
+  int constants = 0;
+  for (int i = 0; i < values.size(); ++i) {
+    const std::string& name = values[i].name();
+    if (values[i].group() == v1::INTERNAL || name.rfind("base", 0) == 0 ||
+        name.rfind("tool", 0) == 0)
+      continue;
+    ++constants;
+    const double sd = 1e3 * std::sqrt(calibration.covariance(i * values.size() + i));
+    EXPECT_NEAR(values[i].sd(), sd, 1e-9 * sd) << name;
+  }
+  EXPECT_EQ(constants, 6);
+}
+
+}  // namespace
+}  // namespace truepose::convert
