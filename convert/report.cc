@@ -87,22 +87,35 @@ double BeforeOf(const CalibrationResult& result, const Parameter& parameter, dou
   return result.before.estimate.lambda(*result.model.parameters.Find(parameter.name));
 }
 
+void AddValue(const CalibrationResult& result, int candidate, const Pose& X_FT_nominal,
+              std::optional<double> variance, v1::ParameterReport* report) {
+  const Parameter& parameter = result.candidates[candidate];
+  const double scale = ScaleOf(parameter.unit);
+  const auto [nominal, identified] = ValuesOf(result, candidate, X_FT_nominal);
+  v1::ParameterValue* value = report->add_values();
+  value->set_name(parameter.name);
+  value->set_nominal(BeforeOf(result, parameter, nominal) * scale);
+  value->set_identified(identified * scale);
+  if (variance) value->set_sd(std::sqrt(*variance) * scale);
+  value->set_unit(NameOf(parameter.unit));
+  value->set_group(GroupToProto(parameter.group));
+}
+
+// The identified parameters, then those that are held with the uncertainty of an earlier
+// calibration: `identified` counts the former, the covariance is of all.
 v1::ParameterReport ParametersOf(const CalibrationResult& result, const Pose& X_FT_nominal) {
   v1::ParameterReport report;
   const std::vector<int>& active = result.identification.set.active;
   const Eigen::VectorXd variances = ShownVariances(result);
   for (size_t i = 0; i < active.size(); ++i) {
-    const Parameter& parameter = result.candidates[active[i]];
-    const double scale = ScaleOf(parameter.unit);
-    const auto [nominal, identified] = ValuesOf(result, active[i], X_FT_nominal);
-    v1::ParameterValue* value = report.add_values();
-    value->set_name(parameter.name);
-    value->set_nominal(BeforeOf(result, parameter, nominal) * scale);
-    value->set_identified(identified * scale);
     const auto k = static_cast<Eigen::Index>(i);
-    if (k < variances.size()) value->set_sd(std::sqrt(variances(k)) * scale);
-    value->set_unit(NameOf(parameter.unit));
-    value->set_group(GroupToProto(parameter.group));
+    AddValue(result, active[i], X_FT_nominal,
+             k < variances.size() ? std::optional(variances(k)) : std::nullopt, &report);
+  }
+  for (size_t i = 0; result.change && i < result.change->held.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(active.size() + i);
+    AddValue(result, result.change->held[i], X_FT_nominal, result.change->covariance(k, k),
+             &report);
   }
   report.set_identified(static_cast<int>(active.size()));
   return report;
@@ -221,7 +234,8 @@ void FillParameters(const CalibrationResult& result, v1::Calibration* calibratio
     parameter->set_name(result.model.parameters[i].name);
     parameter->set_value(result.identification.estimate.lambda(i));
   }
-  const Eigen::MatrixXd& covariance = result.identification.covariance;
+  const Eigen::MatrixXd& covariance =
+      result.change ? result.change->covariance : result.identification.covariance;
   for (Eigen::Index i = 0; i < covariance.rows(); ++i) {
     for (Eigen::Index j = 0; j < covariance.cols(); ++j)
       calibration->add_covariance(covariance(i, j));

@@ -65,5 +65,31 @@ TEST(ReportFigures, DeviationsOfConstantsAreThoseOfTheCovariance) {
   EXPECT_EQ(constants, 6);
 }
 
+// A partial recalibration was stored with the covariance of what it found alone.
+TEST(ReportFigures, APartialCalibrationIsAPriorForAll) {
+  v1::CalibrationInput input = SampleInput(121);
+  const v1::PriorCalibration stored = PriorOf(MustRun(input));
+  input.mutable_options()->set_split("");
+  auto* readings = input.mutable_sessions(0)->mutable_readings();
+  while (readings->size() > 6) readings->RemoveLast();
+  input.mutable_options()->set_calibrate("dq3");
+  input.mutable_options()->set_prior("calibration");
+  *input.mutable_options()->mutable_prior_calibration() = stored;
+  const v1::Calibration part = MustRun(input);
+  const v1::PriorCalibration next = PriorOf(part);
+  EXPECT_EQ(next.identified_size(), stored.identified_size());
+  EXPECT_EQ(next.covariance_size(), stored.covariance_size());
+  EXPECT_EQ(part.report().parameters().identified(), 13) << "held ones are not identified";
+  EXPECT_EQ(part.report().parameters().values(13).nominal(),
+            part.report().parameters().values(13).identified());
+  input.mutable_options()->set_calibrate("all");
+  *input.mutable_options()->mutable_prior_calibration() = next;
+  const v1::Calibration all = MustRun(input);
+  for (const v1::ParameterValue& value : all.report().parameters().values())
+    if (value.group() == v1::INTERNAL && value.unit() == "deg") {
+      EXPECT_LT(value.sd(), 0.05) << value.name();
+    }
+}
+
 }  // namespace
 }  // namespace truepose::convert
