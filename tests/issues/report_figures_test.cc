@@ -65,6 +65,41 @@ TEST(ReportFigures, DeviationsOfConstantsAreThoseOfTheCovariance) {
   EXPECT_EQ(constants, 6);
 }
 
+// Four visits of one group at one place and two at another: seven pairs. One visit is alone.
+v1::CalibrationInput Visited(bool backwards) {
+  v1::CalibrationInput input = SampleInput(60);
+  auto* readings = input.mutable_sessions(0)->mutable_readings();
+  const auto visit = [&](int of, double x) {
+    v1::Reading again = readings->Get(of);
+    again.mutable_position_m()->set_x(again.position_m().x() + x);
+    *readings->Add() = again;
+  };
+  for (const double x : {1e-4, 2e-4, 4e-4}) visit(0, x);
+  visit(1, 3e-4);
+  for (const int row : {0, 1, 2, 60, 61, 62, 63}) readings->Mutable(row)->set_group("g");
+  if (backwards) std::reverse(readings->begin(), readings->end());
+  for (int i = 0; i < readings->size(); ++i) readings->Mutable(i)->set_row(i);
+  return input;
+}
+
+// Visits were compared with the first of their group alone and one pair was made of each group, so
+// that the figures changed with the order of the rows and the others were gone without a word.
+TEST(ReportFigures, RepeatabilityDoesNotDependOnTheOrderOfRows) {
+  const v1::CalibrationReport forwards = MustRun(Visited(false)).report(),
+                              backwards = MustRun(Visited(true)).report();
+  for (const v1::CalibrationReport& report : {forwards, backwards}) {
+    EXPECT_EQ(report.repeatability().pairs(), 7);
+    EXPECT_EQ(report.repeatability().groups(), 2);
+    // 0.1, 0.2, 0.4, 0.1, 0.3, 0.2 and 0.3 mm.
+    EXPECT_NEAR(report.repeatability().difference_mean_mm(), 1.6 / 7, 1e-9);
+    EXPECT_TRUE(std::any_of(report.warnings().begin(), report.warnings().end(),
+                            [](const std::string& warning) {
+                              return warning.find("1 of 7 readings left out") != std::string::npos;
+                            }));
+  }
+  EXPECT_NEAR(forwards.repeatability().iso_rp_mm(), backwards.repeatability().iso_rp_mm(), 1e-9);
+}
+
 // A partial recalibration was stored with the covariance of what it found alone.
 TEST(ReportFigures, APartialCalibrationIsAPriorForAll) {
   v1::CalibrationInput input = SampleInput(121);
