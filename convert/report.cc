@@ -112,6 +112,7 @@ double BeforeOf(const CalibrationResult& result, int candidate, double nominal) 
   return result.before.estimate.lambda(*result.model.parameters.Find(parameter.name));
 }
 
+// model_sd is what stays unexplained: in joint space, where the weights have no s_model, by R.
 v1::Summary SummaryOf(const CalibrationResult& result) {
   const Identification& identification = result.identification;
   v1::Summary summary;
@@ -123,10 +124,11 @@ v1::Summary SummaryOf(const CalibrationResult& result) {
   summary.set_rank(static_cast<int>(identification.set.active.size()));
   summary.set_condition(identification.set.condition);
   summary.set_weighted_residual_variance(identification.weighted_residual_variance);
-  summary.set_model_sd_position_mm(identification.model_error.position_sd_m * kMmPerM);
+  const ModelError unexplained = UnexplainedOf(identification);
+  summary.set_model_sd_position_mm(unexplained.position_sd_m * kMmPerM);
   // Where no rotation was measured there is nothing unexplained in it, only the start value.
   if (PoseStatisticsOf(result.calibration.after).has_rotation)
-    summary.set_model_sd_rotation_deg(identification.model_error.rotation_sd_rad * kDegPerRad);
+    summary.set_model_sd_rotation_deg(unexplained.rotation_sd_rad * kDegPerRad);
   summary.set_message(identification.summary.message);
   return summary;
 }
@@ -164,24 +166,37 @@ int FramesWithParameters(const v1::CalibrationReport& report, v1::ParameterGroup
   return count;
 }
 
+void AddValue(const CalibrationResult& result, int candidate, const Pose& X_FT_nominal,
+              std::optional<double> variance, v1::ParameterReport* report) {
+  const Parameter& parameter = result.candidates[candidate];
+  const double scale = ScaleOf(parameter.unit);
+  const auto [nominal, identified] = ValuesOf(result, candidate, X_FT_nominal);
+  v1::ParameterValue* value = report->add_values();
+  value->set_name(parameter.name);
+  value->set_nominal(BeforeOf(result, candidate, nominal) * scale);
+  value->set_identified(identified * scale);
+  if (variance) value->set_sd(std::sqrt(*variance) * scale);
+  value->set_unit(NameOf(parameter.unit));
+  value->set_group(GroupToProto(parameter.group));
+}
+
 }  // namespace
 
+// The identified parameters, then those that are held with the uncertainty of an earlier
+// calibration: `identified` counts the former, the covariance is of all.
 v1::ParameterReport ParametersOf(const CalibrationResult& result, const Pose& X_FT_nominal) {
   v1::ParameterReport report;
   const std::vector<int>& active = result.identification.set.active;
   const Eigen::VectorXd variances = ShownVariances(result);
   for (size_t i = 0; i < active.size(); ++i) {
-    const Parameter& parameter = result.candidates[active[i]];
-    const double scale = ScaleOf(parameter.unit);
-    const auto [nominal, identified] = ValuesOf(result, active[i], X_FT_nominal);
-    v1::ParameterValue* value = report.add_values();
-    value->set_name(parameter.name);
-    value->set_nominal(BeforeOf(result, active[i], nominal) * scale);
-    value->set_identified(identified * scale);
     const auto k = static_cast<Eigen::Index>(i);
-    if (k < variances.size()) value->set_sd(std::sqrt(variances(k)) * scale);
-    value->set_unit(NameOf(parameter.unit));
-    value->set_group(GroupToProto(parameter.group));
+    AddValue(result, active[i], X_FT_nominal,
+             k < variances.size() ? std::optional(variances(k)) : std::nullopt, &report);
+  }
+  for (size_t i = 0; result.change && i < result.change->held.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(active.size() + i);
+    AddValue(result, result.change->held[i], X_FT_nominal, result.change->covariance(k, k),
+             &report);
   }
   report.set_identified(static_cast<int>(active.size()));
   return report;
@@ -277,7 +292,8 @@ void FillParameters(const CalibrationResult& result, v1::Calibration* calibratio
     parameter->set_name(result.model.parameters[i].name);
     parameter->set_value(result.identification.estimate.lambda(i));
   }
-  const Eigen::MatrixXd& covariance = result.identification.covariance;
+  const Eigen::MatrixXd& covariance =
+      result.change ? result.change->covariance : result.identification.covariance;
   for (Eigen::Index i = 0; i < covariance.rows(); ++i) {
     for (Eigen::Index j = 0; j < covariance.cols(); ++j)
       calibration->add_covariance(covariance(i, j));

@@ -202,8 +202,8 @@ std::string ParametersTable(const v1::ParameterReport& parameters, bool from_ear
   // The robot's own parameters first; the report has them in the order of the covariance.
   for (const v1::ParameterGroup group :
        {v1::INTERNAL, v1::TOOL, v1::BASE, v1::INSTRUMENT, v1::PARAMETER_GROUP_UNSPECIFIED}) {
-    for (const v1::ParameterValue& value : parameters.values()) {
-      if (value.group() == group) AddParameter(value, &table);
+    for (int i = 0; i < parameters.identified(); ++i) {  // further ones are held
+      if (parameters.values(i).group() == group) AddParameter(parameters.values(i), &table);
     }
   }
   return table.empty() ? "" : table.Text(kIndent);

@@ -28,6 +28,7 @@ std::vector<PositionPrediction> Predictions(const Problem& problem,
     identity.push_back(ResidualMatrix::Identity(RowsOf(reading), RowsOf(reading)));
   const WhitenedSystem system =
       Whitened(readings_alone, identification.estimate, identification.model_error, identity);
+  const double factor = identification.variance_factor ? identification.variance_factor->value : 1;
   std::vector<PositionPrediction> predictions;
   Eigen::Index row = 0;
   for (const Reading& reading : problem.readings) {
@@ -35,8 +36,8 @@ std::vector<PositionPrediction> Predictions(const Problem& problem,
     const Eigen::MatrixXd J = system.J.middleRows(row, rows)(Eigen::all, identification.set.active);
     Reading unweighted = reading;
     unweighted.weight = 1;
-    const ResidualMatrix R =
-        CovarianceOf(problem, unweighted, identification.estimate, identification.model_error);
+    const ResidualMatrix R = factor * CovarianceOf(problem, unweighted, identification.estimate,
+                                                   identification.model_error);
     predictions.push_back(
         {system.raw.segment(row, rows), J * C * J.transpose(), R.topLeftCorner(rows, rows)});
     row += RowsOf(reading);
@@ -50,15 +51,21 @@ double SizeIn(const Eigen::VectorXd& r, const Eigen::MatrixXd& S) {
   return r.dot(S.ldlt().solve(r));
 }
 
+// R - J C J'. C is wider than (J'J)^-1 where parameters are held with an uncertainty of their own
+// (change.h), and the difference may then not be positive: R alone bounds it.
+Eigen::MatrixXd CovarianceOfResidual(const PositionPrediction& p) {
+  const Eigen::MatrixXd S = p.of_reading - p.of_parameters;
+  return S.llt().info() == Eigen::Success ? S : p.of_reading;
+}
+
 // k of the region, as a multiple of the quantile of chi-square, so that readings with one row and
 // with three count alike.
 double RegionFactor(const Problem& calibration, const Identification& identification) {
   std::vector<double> ratios;
   for (const PositionPrediction& p :
        Predictions(calibration, identification, ScatterCovariance(identification))) {
-    const double size = SizeIn(p.r, p.of_reading - p.of_parameters);
-    if (size >= 0)
-      ratios.push_back(size / ChiSquareQuantile(kRegion, static_cast<int>(p.r.size())));
+    const double size = SizeIn(p.r, CovarianceOfResidual(p));
+    ratios.push_back(size / ChiSquareQuantile(kRegion, static_cast<int>(p.r.size())));
   }
   const double n = static_cast<double>(ratios.size());
   if (ratios.empty()) return 1;

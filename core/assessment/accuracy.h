@@ -3,8 +3,9 @@
 // At a reading the position error of a calibrated robot is predicted to have the covariance
 //   S = J C J' + R
 // J: position residual by the identified parameters, C: their covariance, R: stated uncertainty and
-// unexplained residual s_model (weights.h). J C J' alone is what the parameters leave uncertain: it
-// shrinks with every reading and says nothing of what the model can't explain.
+// unexplained residual s_model (weights.h), times the variance factor wherever C has it. J C J'
+// alone is what the parameters leave uncertain: it shrinks with every reading and says nothing of
+// what the model can't explain.
 //
 // The 95 % region is r' S^-1 r <= k. What a model can't explain is not normal, its tails are
 // longer: so k is the 95 % quantile of r' (R - J C J')^-1 r over the n calibration readings

@@ -1,6 +1,5 @@
 #include "core/assessment/repeatability.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace truepose {
@@ -36,7 +35,6 @@ IsoRepeatability RepeatabilityOfGroups(const std::vector<Eigen::Matrix3Xd>& grou
     const std::vector<double> l = DistancesToBarycentre(points);
     all.insert(all.end(), l.begin(), l.end());
     ++result.groups;
-    if (l.size() >= 3) result.worst_m = std::max(result.worst_m.value_or(0), Rp(l));
   }
   result.points = static_cast<int>(all.size());
   if (!all.empty()) result.pooled_m = Rp(all);

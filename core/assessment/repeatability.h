@@ -9,7 +9,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -32,9 +31,6 @@ struct IsoRepeatability {
   // RP of the distances of all groups together, S_l with points - 1. The figure to quote: it exists
   // from two readings a place on, and many places make up for few readings.
   double pooled_m = 0;
-  // The largest RP of one group, as ISO 9283 states a robot (with 30 readings a pose). Only of
-  // groups of three points and more: the two distances of a pair are equal, so its S_l is 0.
-  std::optional<double> worst_m;
 };
 
 // @param groups points attained at each place, as columns.

@@ -86,6 +86,9 @@ void JudgeSizes(const Eigen::VectorXd& lambda, const ParameterSet& parameters, V
   }
 }
 
+// One false alarm in a thousand recalibrations.
+constexpr double kHeldFitChance = 1e-3;
+
 constexpr double kMostUnexplained_m = 5e-3;
 constexpr double kMostUnexplained_rad = 0.5 * std::numbers::pi / 180;
 
@@ -182,7 +185,7 @@ Verdict Judge(const Identification& identification, const ParameterSet& paramete
   JudgeControlSize(UnitsOf(control_before).count, &verdict);
   if (!control_before.empty()) JudgeControl(control_before, control_after, &verdict);
   JudgeSizes(identification.estimate.lambda, parameters, &verdict);
-  JudgeUnexplained(identification.model_error, &verdict);
+  JudgeUnexplained(UnexplainedOf(identification), &verdict);
   JudgeScope(identification, &verdict);
   JudgeTermination(identification.summary, &verdict);
   return verdict;
@@ -209,16 +212,14 @@ void JudgeSelection(const std::vector<SelectionStep>& path, Verdict* verdict) {
       " parameters beside offsets and lengths; the others stayed nominal at these poses"));
 }
 
-void JudgeHeldFit(double weighted_residual_variance, int redundancy, Verdict* verdict) {
-  if (redundancy <= 0 ||
-      ChiSquareSurvival(weighted_residual_variance * redundancy, redundancy) > 0.01)
-    return;
+void JudgeHeldFit(double chi_square, int degrees_of_freedom, double p_value, Verdict* verdict) {
+  if (degrees_of_freedom <= 0 || p_value >= kHeldFitChance) return;
   verdict->decision = Decision::kDoNotApply;
   verdict->reasons.push_back(absl::StrFormat(
-      "the readings do not fit what is held from the earlier calibration (weighted residual "
-      "variance "
-      "%.2f, expected 1): something else has changed too; find it with more parameters or all",
-      weighted_residual_variance));
+      "the readings do not fit what is held from the earlier calibration (residual variance %.2f "
+      "with its uncertainty, expected 1; p = %.2g): something else has changed too; find it with "
+      "more parameters or all",
+      chi_square / degrees_of_freedom, p_value));
 }
 
 void JudgeChange(double p_value, bool real, Verdict* verdict) {

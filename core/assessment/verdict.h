@@ -31,7 +31,7 @@ Interval BootstrapRatio(const std::vector<PoseError>& before, const std::vector<
 // that interval does not lie below 1 by more than round-off (1e-6; below 5 control rows there is no
 // interval, and the ratio itself must), or when a
 // correction exceeds 100 mm or 10 deg: no robot is that wrong, so joints, units or robot file are;
-// nor when s_model exceeds 5 mm or 0.5 deg per axis: real arms leave below 1 mm, so units, joints,
+// nor when what stays unexplained (identify.h) exceeds 5 mm or 0.5 deg per axis: real arms leave below 1 mm, so units, joints,
 // anchors or the robot file are wrong, or the start was, whatever the ratio says;
 // apply_within_volume when parameters stayed nominal for want of readings, or when there are
 // fewer than 10 control rows; apply otherwise. Several points of one row are one row everywhere.
@@ -50,11 +50,10 @@ void JudgeVolume(double uncertainty_measured_m, double uncertainty_elsewhere_m,
 // @param path of the selection; empty = none was made.
 void JudgeSelection(const std::vector<SelectionStep>& path, Verdict* verdict);
 
-// do_not_apply when the readings of a partial recalibration don't fit the parameters that are held:
-// the weighted residual variance, 1 with the earlier calibration's s_model, is beyond chance (p <
-// 0.001).
-// @param redundancy measured values - parameters.
-void JudgeHeldFit(double weighted_residual_variance, int redundancy, Verdict* verdict);
+// do_not_apply when the readings of a partial recalibration don't fit the parameters that are held,
+// uncertain as those are, beyond chance: p < 0.001.
+// @param chi_square, degrees_of_freedom, p_value of that test (calibrate/change.h).
+void JudgeHeldFit(double chi_square, int degrees_of_freedom, double p_value, Verdict* verdict);
 
 // do_not_apply when parameters found anew don't differ from the stored ones beyond chance.
 void JudgeChange(double p_value, bool real, Verdict* verdict);

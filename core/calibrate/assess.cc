@@ -94,12 +94,11 @@ Verdict JudgeResult(const CalibrationProblem& problem, const Part& part,
                           result.control.after);
   JudgeVolume(ParameterUncertainty(Measured(part.problem), result.identification),
               ParameterUncertainty(Elsewhere(part.problem, *problem.robot), result.identification),
-              result.identification.model_error.position_sd_m * std::sqrt(3.0), &verdict);
+              UnexplainedOf(result.identification).position_sd_m * std::sqrt(3.0), &verdict);
   JudgeSelection(result.selection, &verdict);
   if (result.change) {
-    const int redundancy =
-        result.identification.rows - static_cast<int>(result.identification.set.active.size());
-    JudgeHeldFit(result.identification.weighted_residual_variance, redundancy, &verdict);
+    JudgeHeldFit(result.held_fit->chi_square, result.held_fit->degrees_of_freedom,
+                 result.held_fit->p_value, &verdict);
     if (!result.change->names.empty())
       JudgeChange(result.change->p_value, result.change->real, &verdict);
   }

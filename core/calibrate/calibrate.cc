@@ -84,6 +84,7 @@ absl::StatusOr<CalibrationResult> Calibrate(const CalibrationProblem& problem,
                      options.identify,
                      {},
                      {}};
+  run.identify.X_FT_nominal = problem.X_FT_nominal.value_or(Pose{});
   TRUEPOSE_RETURN_IF_ERROR(CheckEffects(*problem.robot, run.part.problem, result.effect_groups));
   TRUEPOSE_RETURN_IF_ERROR(Prepare(result.model, &run));
   TRUEPOSE_RETURN_IF_ERROR(FindBefore(&run, &result.before));
@@ -96,9 +97,9 @@ absl::StatusOr<CalibrationResult> Calibrate(const CalibrationProblem& problem,
     TRUEPOSE_RETURN_IF_ERROR(CheckComplete(result.identification.set, result.candidates));
   TRUEPOSE_RETURN_IF_ERROR(CheckNamed(run.scope, result.identification.set, result.candidates));
   if (HoldsTheRest(options)) {
-    result.change = TestChange(run.part.problem, run.start_lambda,
-                               InternalCovariance(*options.stored, result.model.parameters),
-                               &result.identification);
+    const Eigen::MatrixXd stored = InternalCovariance(*options.stored, result.model.parameters);
+    result.held_fit = TestHeldFit(run.part.problem, stored, result.identification);
+    result.change = TestChange(run.part.problem, run.start_lambda, stored, &result.identification);
   }
   TRUEPOSE_ASSIGN_OR_RETURN(
       result.joints,

@@ -95,6 +95,7 @@ struct CalibrationResult {
   PlaceErrors control_places;             // of contact control rows
   std::optional<JointComparison> joints;  // where the problem has other_q
   std::optional<ChangeTest> change;       // of a partial recalibration from a stored calibration
+  std::optional<HeldFit> held_fit;        // beside it
   Verdict verdict;
 };
 

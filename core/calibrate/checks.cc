@@ -3,9 +3,27 @@
 #include <algorithm>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 #include "core/base/fault.h"
 
 namespace truepose {
+namespace {
+
+// "joints j1, j2".
+std::string NoisyJoints(const Robot& robot, const Reading& reading) {
+  std::vector<std::string> names;
+  for (int i = 0; i < std::min<int>(robot.joint_count(), reading.joint_sd.size()); ++i)
+    if (reading.joint_sd(i) > 0) names.push_back(robot.joints()[i].name);
+  return names.empty() ? "no joint" : absl::StrCat("joints ", absl::StrJoin(names, ", "));
+}
+
+// The rows of a residual, in words.
+std::string CoordinatesOf(const Reading& reading) {
+  const int positions = PositionRowsOf(reading);
+  return absl::StrCat(positions, " of position, ", RowsOf(reading) - positions, " of rotation");
+}
+
+}  // namespace
 
 absl::Status CheckProblem(const CalibrationProblem& problem) {
   FaultList faults;
@@ -53,6 +71,28 @@ absl::Status CheckEffects(const Robot& robot, const Problem& part,
                    : "a temperature (temp_C) that varies");
   }
   return faults.ToStatus();
+}
+
+absl::Status CheckJointSpace(const Robot& robot, const Problem& part, const Estimate& start,
+                             const IdentifyOptions& options) {
+  const std::optional<ModelError>& known = options.known_model_error;
+  if (!known || known->position_sd_m > 0 || known->rotation_sd_rad > 0) return absl::OkStatus();
+  const auto exact = [&](const Reading& reading) {
+    return StatedRank(part, reading, start) < RowsOf(reading);
+  };
+  const auto first = std::find_if(part.readings.begin(), part.readings.end(), exact);
+  if (first == part.readings.end()) return absl::OkStatus();
+  FaultList faults;
+  faults.Add(
+      "options.pose_matching",
+      absl::StrCat("joint_space, where the noise of ", NoisyJoints(robot, *first), " reaches ",
+                   StatedRank(part, *first, start), " of the ", RowsOf(*first),
+                   " measured coordinates (", CoordinatesOf(*first), ") of reading ", first->id + 1,
+                   "; so in ", std::count_if(first, part.readings.end(), exact), " of ",
+                   part.readings.size(), " readings"),
+      "noise that reaches every measured coordinate; task_space, which adds what stays "
+      "unexplained, takes these readings");
+  return faults.ToStatus(absl::StatusCode::kFailedPrecondition);
 }
 
 absl::Status CheckConvention(const StoredCalibration& stored, const Model& model) {

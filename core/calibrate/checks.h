@@ -19,6 +19,13 @@ absl::Status CheckComplete(const IdentifiableSet& set, const ParameterSet& candi
 absl::Status CheckEffects(const Robot& robot, const Problem& part,
                           const std::vector<EffectGroup>& groups);
 
+// Weights without s_model (known_model_error 0, pose matching in joint space) exist where stated
+// noise reaches every measured coordinate of every reading (StatedRank); where it does not,
+// those coordinates would count as exact.
+// kFailedPrecondition with a fault that names the joints, the coordinates and task_space.
+absl::Status CheckJointSpace(const Robot& robot, const Problem& part, const Estimate& start,
+                             const IdentifyOptions& options);
+
 // kInvalidArgument: a stored calibration of another model.
 absl::Status CheckConvention(const StoredCalibration& stored, const Model& model);
 

@@ -84,6 +84,8 @@ absl::Status FindBefore(CalibrationRun* run, Identification* before) {
   TRUEPOSE_ASSIGN_OR_RETURN(Estimate start, FindStart(run->part.problem, options,
                                                       run->stages.For("start_values", 0, 0.1)));
   start.lambda = run->start_lambda;
+  TRUEPOSE_RETURN_IF_ERROR(
+      CheckJointSpace(*run->problem.robot, run->part.problem, start, run->identify));
   TRUEPOSE_ASSIGN_OR_RETURN(*before, FitFrames(run->part.problem, start, run->identify,
                                                run->stages.For("start_values", 0.1, 0.3)));
   return absl::OkStatus();

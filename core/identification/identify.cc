@@ -12,26 +12,37 @@
 #include "core/base/status_macros.h"
 #include "core/identification/contacts.h"
 #include "core/identification/fixture_error.h"
+#include "core/identification/frame_gauge.h"
 #include "core/identification/weighted_solve.h"
 
 namespace truepose {
 namespace {
 
-IdentifiableSet ExternalSet(const Problem& problem, const Identification& start,
-                            IdentifiabilityOptions options) {
-  const Eigen::MatrixXd J =
-      Whitened(AtContacts(problem, start.estimate), start.estimate, start.model_error).J;
-  ParameterSet external;
-  const ParameterSet all = Candidates(problem);
-  for (int i = 0; i < problem.FirstInternal(); ++i) external.Add(all[i]);
-  options.use_sd_bounds = false;
-  return Identifiable(J.leftCols(problem.FirstInternal()), external, options);
-}
-
 // identify.h. 0 when nothing is left over.
 double WeightedVariance(const WhitenedSystem& system, int active, double consistency) {
   const double redundancy = consistency * (system.weight.sum() - active);
   return redundancy > 0 ? system.weight.dot(system.r.cwiseAbs2()) / redundancy : 0;
+}
+
+VarianceFactor FactorOf(const Problem& problem, const Identification& identification) {
+  double sums[2] = {0, 0};
+  int rows[2] = {0, 0};
+  for (Reading reading : problem.readings) {
+    reading.weight = 1;
+    const Residual variances =
+        CovarianceOf(problem, reading, identification.estimate, identification.model_error)
+            .diagonal();
+    const int positions = PositionRowsOf(reading), rotations = RotationRowsOf(reading);
+    sums[0] += variances.head(positions).sum();
+    sums[1] += variances.tail(rotations).sum();
+    rows[0] += positions;
+    rows[1] += rotations;
+  }
+  const double factor = identification.weighted_residual_variance;
+  const auto sd = [&](int kind) {
+    return std::sqrt(factor * sums[kind] / std::max(rows[kind], 1));
+  };
+  return {factor, {sd(0), sd(1)}};
 }
 
 void Finish(const Problem& problem, const IdentifyOptions& options, Identification* result) {
@@ -50,7 +61,10 @@ void Finish(const Problem& problem, const IdentifyOptions& options, Identificati
   } else if (all_rows >= active) {
     result->covariance = ParameterCovariance(system.J, result->set.active);
   }
-  if (options.scale_covariance) result->covariance *= result->weighted_residual_variance;
+  if (options.scale_covariance) {
+    result->variance_factor = FactorOf(problem, *result);
+    result->covariance *= result->variance_factor->value;
+  }
   result->fixture_covariance = FixtureCovariance(problem, result->estimate, result->model_error,
                                                  system, result->set.active, result->covariance);
   if (result->fixture_covariance.size() > 0) result->covariance += result->fixture_covariance;
@@ -227,6 +241,11 @@ Eigen::MatrixXd ScatterCovariance(const Identification& identification) {
   return identification.covariance - identification.fixture_covariance;
 }
 
+ModelError UnexplainedOf(const Identification& identification) {
+  return identification.variance_factor ? identification.variance_factor->unexplained
+                                        : identification.model_error;
+}
+
 Eigen::MatrixXd ParameterCovariance(const Eigen::MatrixXd& J, const std::vector<int>& active) {
   Eigen::MatrixXd columns = J(Eigen::all, active);
   const Eigen::VectorXd scale = columns.colwise().norm().cwiseInverse();
@@ -246,7 +265,9 @@ absl::StatusOr<Identification> FitFrames(const Problem& problem, const Estimate&
   direct.solve.estimator = Estimator::kLevenbergMarquardt;
   Identification result;
   result.estimate = start;
-  result.set = ExternalSet(frames_alone, result, options.identifiability);
+  SetFreeToolsToNominal(frames_alone, options.X_FT_nominal, options.free, options.identifiability,
+                        &result.estimate);
+  result.set = FrameSet(frames_alone, result.estimate, result.model_error, options.identifiability);
   if (!options.free.empty()) {
     const std::set<int> free(options.free.begin(), options.free.end());
     std::erase_if(result.set.active, [&](int candidate) { return !free.contains(candidate); });

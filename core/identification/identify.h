@@ -17,6 +17,13 @@
 
 namespace truepose {
 
+// Of weights whose scale is not sure: the covariance was multiplied by `value`, the weighted
+// residual variance, and R is to be multiplied by it wherever both are used.
+struct VarianceFactor {
+  double value = 1;
+  ModelError unexplained;  // root of the readings' mean variance of R times the factor, per axis
+};
+
 struct Identification {
   Estimate estimate;
   ModelError model_error;
@@ -34,6 +41,7 @@ struct Identification {
   // weights w of a robust loss and its consistency k (robust.h): 1 where the weights settled.
   // Without a loss w = k = 1, 2 cost / (rows - active). Rows of a prior are among them.
   double weighted_residual_variance = 0;
+  std::optional<VarianceFactor> variance_factor;  // with IdentifyOptions::scale_covariance
 };
 
 struct IdentifyOptions {
@@ -46,6 +54,8 @@ struct IdentifyOptions {
   Loss loss = Loss::kNone;
   // Candidates that may move; empty = all. The others stay where the start has them.
   std::vector<int> free;
+  // Where coordinates of targets stay that nothing tells from motions of the base (frame_gauge.h).
+  Pose X_FT_nominal;
   // s_model of an earlier calibration in place of an estimate, for readings too few to give one.
   std::optional<ModelError> known_model_error;
   // Multiplies the covariance by the weighted residual variance, the variance factor: for weights
@@ -54,6 +64,8 @@ struct IdentifyOptions {
 };
 
 // Fits base and tool alone, lambda as given: "before", and how a calibration meets a new session.
+// Which of their coordinates the readings determine is judged at nominal lambda; the others of the
+// targets go to options.X_FT_nominal.
 // @param start frames near the minimum (FindStart). @returns kCancelled; not converging is in the
 // summary.
 absl::StatusOr<Identification> FitFrames(const Problem& problem, const Estimate& start,
@@ -92,6 +104,9 @@ absl::StatusOr<Identification> Identify(const Problem& problem, const Identifiab
 
 // The covariance without the fixture's share: what the scatter of the readings alone leaves.
 Eigen::MatrixXd ScatterCovariance(const Identification& identification);
+
+// What the parameters leave unexplained: s_model, or that of the variance factor.
+ModelError UnexplainedOf(const Identification& identification);
 
 // (J'J)^-1 of the active columns, by QR of the columns scaled to norm 1. @param J rows >= active.
 Eigen::MatrixXd ParameterCovariance(const Eigen::MatrixXd& J, const std::vector<int>& active);

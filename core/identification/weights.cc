@@ -1,6 +1,7 @@
 #include "core/identification/weights.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "core/identification/prediction.h"
@@ -49,11 +50,16 @@ ResidualMatrix DiagonalStated(const Reading& reading) {
   return variances.asDiagonal();
 }
 
+// R without s_model and weight.
+ResidualMatrix StatedOf(const Problem& problem, const Reading& reading, const Estimate& estimate) {
+  return NeedsFullCovariance(reading) ? FullStated(problem, reading, estimate)
+                                      : DiagonalStated(reading);
+}
+
 // R without the weight.
 ResidualMatrix Unweighted(const Problem& problem, const Reading& reading, const Estimate& estimate,
                           const ModelError& error) {
-  ResidualMatrix R = NeedsFullCovariance(reading) ? FullStated(problem, reading, estimate)
-                                                  : DiagonalStated(reading);
+  ResidualMatrix R = StatedOf(problem, reading, estimate);
   const int positions = PositionRowsOf(reading);
   const auto variance = [](double sd) { return std::max(sd * sd, kLeastVariance); };
   R.diagonal().head(positions).array() += variance(error.position_sd_m);
@@ -106,6 +112,17 @@ void FillPrior(const Problem& problem, const Estimate& estimate, int row, Whiten
 ResidualMatrix CovarianceOf(const Problem& problem, const Reading& reading,
                             const Estimate& estimate, const ModelError& model_error) {
   return Unweighted(problem, reading, estimate, model_error) / reading.weight;
+}
+
+int StatedRank(const Problem& problem, const Reading& reading, const Estimate& estimate) {
+  constexpr double kNothing = 1e-10;  // of a variance
+  const ResidualMatrix R = StatedOf(problem, reading, estimate);
+  const Residual scale = R.diagonal().unaryExpr(
+      [](double variance) { return variance > 0 ? 1 / std::sqrt(variance) : 0; });
+  const Eigen::MatrixXd unit = scale.asDiagonal() * R * scale.asDiagonal();
+  const Eigen::VectorXd directions =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(unit, Eigen::EigenvaluesOnly).eigenvalues();
+  return static_cast<int>((directions.array() > kNothing).count());
 }
 
 ResidualMatrix WhitenerOf(const Problem& problem, const Reading& reading, const Estimate& estimate,

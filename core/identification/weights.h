@@ -24,6 +24,11 @@ using ResidualMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 
 ResidualMatrix CovarianceOf(const Problem& problem, const Reading& reading,
                             const Estimate& estimate, const ModelError& model_error);
 
+// How many directions of the residual the stated uncertainty and the joints' noise reach: the rank
+// of R without s_model, its rows scaled to unit variance, directions below 1e-5 of a deviation not
+// counted. Less than the rows where fewer joints than rows have noise, or at a singular pose.
+int StatedRank(const Problem& problem, const Reading& reading, const Estimate& estimate);
+
 // W with W R W' = I, so that W r has unit covariance; a weight of 0 gives W = 0.
 ResidualMatrix WhitenerOf(const Problem& problem, const Reading& reading, const Estimate& estimate,
                           const ModelError& model_error);

@@ -325,7 +325,7 @@ TEST(Options, PoseMatchingInJointSpace) {
   const v1::Calibration joint = MustRun(input);
   input.mutable_options()->set_pose_matching("task_space");
   const v1::Calibration task = MustRun(input);
-  EXPECT_EQ(joint.report().summary().model_sd_position_mm(), 0);
+  EXPECT_GT(joint.report().summary().model_sd_position_mm(), 0) << "else it is no prior";
   EXPECT_EQ(joint.report().summary().termination(), "converged");
   EXPECT_NEAR(joint.report().sets().control().after().position_mm().rms(),
               task.report().sets().control().after().position_mm().rms(),
