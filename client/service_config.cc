@@ -22,7 +22,7 @@ const std::vector<Idempotent>& IdempotentCalls() {
        {"CreateSession", "GetSession", "ListSessions", "SealSession", "ListReadings"}},
       {"truepose.v1.CalibrationService",
        {"CreateCalibrationJob", "GetCalibrationJob", "ListCalibrationJobs", "CancelCalibrationJob",
-        "GetCalibration", "ListCalibrations", "Evaluate", "Compensate"}},
+        "GetCalibration", "ListCalibrations", "Evaluate", "Compensate", "CompareCalibrations"}},
   };
   return calls;
 }

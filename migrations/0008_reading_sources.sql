@@ -1,4 +1,4 @@
--- min_compatible: 1
+-- min_compatible: 8
 -- When a reading came, and which readings came from which client's spool.
 
 -- Microseconds of Unix time; 0: stored before this was kept.

@@ -95,7 +95,8 @@ std::string NoiseLine(const v1::CalibrationReport& report) {
   const v1::Summary& summary = report.summary();
   std::string text = absl::StrCat(
       "unexplained per axis: ", Fixed(summary.model_sd_position_mm(), kFewDigits), " mm");
-  if (report.sets().calibration().after().has_rotation_deg())
+  const bool measured = report.sets().calibration().after().has_rotation_deg();
+  if (measured && summary.model_sd_rotation_deg() > 0)
     absl::StrAppend(&text, ", ", Fixed(summary.model_sd_rotation_deg(), kFewDigits), " deg");
   absl::StrAppendFormat(&text, "; weighted residual variance %.2f",
                         summary.weighted_residual_variance());

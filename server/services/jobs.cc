@@ -10,6 +10,7 @@
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
 #include "server/services/closures.h"
+#include "server/services/live.h"
 #include "server/store/jobs.h"
 #include "server/store/names.h"
 #include "server/store/robots.h"
@@ -79,7 +80,7 @@ absl::Status CheckSessions(const std::vector<v1::Session>& sessions, const std::
 // The job as it is to be stored: what was asked for, and what that means today.
 absl::StatusOr<v1::CalibrationJob> FreezeInput(Snapshot& snapshot,
                                                const v1::CreateCalibrationJobRequest& request) {
-  TRUEPOSE_RETURN_IF_ERROR(store::GetRobot(snapshot, request.robot()).status());
+  TRUEPOSE_RETURN_IF_ERROR(GetLiveRobot(snapshot, request.robot(), "robot").status());
   TRUEPOSE_ASSIGN_OR_RETURN(const auto sessions, SessionsOf(snapshot, request));
   TRUEPOSE_RETURN_IF_ERROR(CheckSessions(sessions, request.robot()));
   const std::string& revision = sessions.front().nominal_revision();
@@ -119,9 +120,15 @@ absl::StatusOr<v1::CalibrationJob> CreateCalibrationJob(
     const CallContext& call, const v1::CreateCalibrationJobRequest& request) {
   TRUEPOSE_RETURN_IF_ERROR(CheckRequest(request));
   if (request.validate_only()) return Preview(call, request);
+  const store::RequestKey key =
+      resource::KeyOf(call.caller.principal, request, request.request_id());
   auto job = call.store.Write([&](Transaction& transaction) -> absl::StatusOr<v1::CalibrationJob> {
-    TRUEPOSE_ASSIGN_OR_RETURN(const v1::CalibrationJob frozen, FreezeInput(transaction, request));
-    return store::CreateJob(transaction, request.job_id(), frozen);
+    TRUEPOSE_ASSIGN_OR_RETURN(v1::CalibrationJob frozen, FreezeInput(transaction, request));
+    frozen.set_created_by(call.caller.principal);
+    frozen.set_created_by_machine(call.caller.is_machine);
+    return resource::Once<v1::CalibrationJob>(transaction, key, [&](auto& inner) {
+      return store::CreateJob(inner, request.job_id(), frozen);
+    });
   });
   if (job.ok()) call.engine.Wake();
   return job;

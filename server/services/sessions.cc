@@ -1,9 +1,16 @@
 #include "server/services/sessions.h"
 
+#include <string>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
 #include "convert/run.h"
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
+#include "server/resource/field_mask.h"
 #include "server/services/closures.h"
+#include "server/services/live.h"
+#include "server/store/message.h"
 #include "server/store/names.h"
 #include "server/store/readings.h"
 #include "server/store/sessions.h"
@@ -13,6 +20,41 @@ namespace {
 
 using store::Snapshot;
 using store::Transaction;
+
+// Everything else is the server's, or is what the readings were measured for.
+const std::vector<std::string>& OutputOnly() {
+  static const auto& fields = *new std::vector<std::string>{
+      "robot",  "nominal_revision", "source",    "extra_columns", "state",
+      "digest", "reading_count",    "seal_time", "sealed_by",     "created_by"};
+  return fields;
+}
+
+absl::StatusOr<v1::Session> Update(Transaction& transaction,
+                                   const v1::UpdateSessionRequest& request) {
+  TRUEPOSE_RETURN_IF_ERROR(
+      store::ParseSessionName(request.session().name(), "session.name").status());
+  TRUEPOSE_ASSIGN_OR_RETURN(v1::Session session,
+                            store::GetSession(transaction, request.session().name()));
+  if (session.has_delete_time()) return store::NotFound(session.name(), "session.name");
+  TRUEPOSE_RETURN_IF_ERROR(CheckEtag(session.etag(), request.session().etag()));
+  if (session.state() != v1::OPEN) {
+    return store::Refusal(absl::StatusCode::kFailedPrecondition, "session.name",
+                          absl::StrCat(session.name(), ", which is sealed"), "an open session");
+  }
+  TRUEPOSE_RETURN_IF_ERROR(
+      resource::ApplyUpdate(request.session(), request.update_mask(), OutputOnly(), session));
+  return store::PutSession(transaction, session);
+}
+
+absl::StatusOr<v1::Session> SetDeleted(Transaction& transaction, const std::string& name,
+                                       const std::string& etag, bool deleted) {
+  TRUEPOSE_ASSIGN_OR_RETURN(v1::Session session, store::GetSession(transaction, name));
+  TRUEPOSE_RETURN_IF_ERROR(CheckEtag(session.etag(), etag));
+  if (session.has_delete_time() == deleted) return session;
+  session.clear_delete_time();
+  if (deleted) *session.mutable_delete_time() = store::ToTimestamp(transaction.now());
+  return store::PutSession(transaction, session);
+}
 
 }  // namespace
 
@@ -25,8 +67,31 @@ absl::StatusOr<v1::Session> CreateSession(const CallContext& call,
     faults.AddAll(store::ParseNominalName(revision, "session.nominal_revision").status());
   }
   TRUEPOSE_RETURN_IF_ERROR(faults.ToStatus());
-  return call.store.Write([&](Transaction& transaction) {
-    return store::CreateSession(transaction, request.session_id(), request.session());
+  v1::Session session = request.session();
+  session.set_created_by(call.caller.principal);
+  return WriteOnce(call, request, [&](Transaction& transaction) -> absl::StatusOr<v1::Session> {
+    TRUEPOSE_RETURN_IF_ERROR(GetLiveRobot(transaction, session.robot(), "session.robot").status());
+    return store::CreateSession(transaction, request.session_id(), session);
+  });
+}
+
+absl::StatusOr<v1::Session> UpdateSession(const CallContext& call,
+                                          const v1::UpdateSessionRequest& request) {
+  return WriteOnce(call, request,
+                   [&](Transaction& transaction) { return Update(transaction, request); });
+}
+
+absl::StatusOr<v1::Session> DeleteSession(const CallContext& call,
+                                          const v1::DeleteSessionRequest& request) {
+  return WriteOnce(call, request, [&](Transaction& transaction) {
+    return SetDeleted(transaction, request.name(), request.etag(), true);
+  });
+}
+
+absl::StatusOr<v1::Session> UndeleteSession(const CallContext& call,
+                                            const v1::UndeleteSessionRequest& request) {
+  return WriteOnce(call, request, [&](Transaction& transaction) {
+    return SetDeleted(transaction, request.name(), "", false);
   });
 }
 
@@ -38,8 +103,9 @@ absl::StatusOr<v1::Session> GetSession(const CallContext& call,
 
 absl::StatusOr<v1::ListSessionsResponse> ListSessions(const CallContext& call,
                                                       const v1::ListSessionsRequest& request) {
+  TRUEPOSE_ASSIGN_OR_RETURN(const auto filter, FilterOf<v1::Session>(request));
   TRUEPOSE_ASSIGN_OR_RETURN(auto page, call.store.Read([&](Snapshot& snapshot) {
-    return store::ListSessions(snapshot, request.robot(), PageOf(request));
+    return store::ListSessions(snapshot, request.robot(), PageOf(request), filter);
   }));
   return ToResponse(std::move(page), &v1::ListSessionsResponse::mutable_sessions);
 }
@@ -53,8 +119,9 @@ absl::StatusOr<v1::Session> SealSession(const CallContext& call,
     return store::AllReadings(snapshot, request.name());
   }));
   const std::string digest = convert::ReadingsDigest(readings);
-  return call.store.Write([&](Transaction& transaction) {
-    return store::SealSession(transaction, request.name(), request.reading_count(), digest);
+  return WriteOnce(call, request, [&](Transaction& transaction) {
+    return store::SealSession(transaction, request.name(), request.reading_count(), digest,
+                              call.caller.principal);
   });
 }
 

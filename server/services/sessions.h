@@ -14,6 +14,12 @@ namespace truepose::services {
 
 absl::StatusOr<v1::Session> CreateSession(const CallContext& call,
                                           const v1::CreateSessionRequest& request);
+absl::StatusOr<v1::Session> UpdateSession(const CallContext& call,
+                                          const v1::UpdateSessionRequest& request);
+absl::StatusOr<v1::Session> DeleteSession(const CallContext& call,
+                                          const v1::DeleteSessionRequest& request);
+absl::StatusOr<v1::Session> UndeleteSession(const CallContext& call,
+                                            const v1::UndeleteSessionRequest& request);
 absl::StatusOr<v1::Session> GetSession(const CallContext& call,
                                        const v1::GetSessionRequest& request);
 absl::StatusOr<v1::ListSessionsResponse> ListSessions(const CallContext& call,

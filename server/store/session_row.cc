@@ -1,7 +1,9 @@
 #include "server/store/session_row.h"
 
 #include "core/base/status_macros.h"
+#include "server/store/events.h"
 #include "server/store/message.h"
+#include "server/store/names.h"
 #include "server/store/reading_rows.h"
 #include "server/store/sql/query.h"
 
@@ -33,8 +35,16 @@ absl::Status UpdateSession(Transaction& transaction, v1::Session& session) {
   TRUEPOSE_ASSIGN_OR_RETURN(const Key key, SessionKey(transaction, session.name()));
   session.set_revision(transaction.revision());
   session.set_etag(ToEtag(transaction.revision()));
-  return sql::Run(transaction.sql(), "UPDATE sessions SET message = $2 WHERE sequence = $1", key,
-                  sql::BlobView{ToBlob(session)});
+  *session.mutable_update_time() = ToTimestamp(transaction.now());
+  const bool deleted = session.has_delete_time();
+  TRUEPOSE_RETURN_IF_ERROR(sql::Run(
+      transaction.sql(), "UPDATE sessions SET deleted = $2, message = $3 WHERE sequence = $1", key,
+      deleted ? 1 : 0, sql::BlobView{ToBlob(session)}));
+  TRUEPOSE_ASSIGN_OR_RETURN(const std::string robot_id, ParseRobotName(session.robot()));
+  return RecordEvent(
+      transaction,
+      {.kind = v1::KIND_SESSION, .robot_id = robot_id, .name = session.name(), .deleted = deleted},
+      session);
 }
 
 }  // namespace truepose::store

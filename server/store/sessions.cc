@@ -19,14 +19,21 @@
 namespace truepose::store {
 namespace {
 
+// What a client gives when it creates a session, but for the nominal revision.
+v1::Session Given(const v1::Session& from) {
+  v1::Session given;
+  given.set_robot(from.robot());
+  given.set_source(from.source());
+  *given.mutable_extra_columns() = from.extra_columns();
+  CopySessionSettings(from, given);
+  return given;
+}
+
 // What a repeated create has to agree in. An empty revision meant "the latest" and agrees with any.
 bool IsSameRequest(const v1::Session& stored, const v1::Session& asked) {
-  return stored.robot() == asked.robot() && stored.display_name() == asked.display_name() &&
-         stored.source() == asked.source() &&
-         (asked.nominal_revision().empty() ||
-          stored.nominal_revision() == asked.nominal_revision()) &&
-         std::equal(stored.extra_columns().begin(), stored.extra_columns().end(),
-                    asked.extra_columns().begin(), asked.extra_columns().end());
+  const bool same_nominal =
+      asked.nominal_revision().empty() || stored.nominal_revision() == asked.nominal_revision();
+  return same_nominal && !stored.has_delete_time() && ToBlob(Given(stored)) == ToBlob(Given(asked));
 }
 
 // The revision that the session is measured for, of its own robot.
@@ -46,13 +53,10 @@ absl::Status InsertSession(Transaction& transaction, const std::string& id,
                            const v1::Session& asked) {
   TRUEPOSE_ASSIGN_OR_RETURN(const std::string nominal, ChooseNominal(transaction, asked));
   TRUEPOSE_ASSIGN_OR_RETURN(const std::string robot_id, ParseRobotName(asked.robot()));
-  v1::Session session;
+  v1::Session session = Given(asked);
   session.set_name(SessionName(id));
-  session.set_robot(asked.robot());
   session.set_nominal_revision(nominal);
-  session.set_display_name(asked.display_name());
-  session.set_source(asked.source());
-  *session.mutable_extra_columns() = asked.extra_columns();
+  session.set_created_by(asked.created_by());
   session.set_state(v1::OPEN);
   *session.mutable_create_time() = ToTimestamp(transaction.now());
   TRUEPOSE_RETURN_IF_ERROR(
@@ -83,6 +87,25 @@ absl::Status CheckSeal(const v1::Session& session, int reading_count, std::strin
 
 }  // namespace
 
+void CopySessionSettings(const v1::Session& from, v1::Session& session) {
+  session.set_display_name(from.display_name());
+  session.set_purpose(from.purpose());
+  session.set_instrument(from.instrument());
+  session.set_fixture(from.fixture());
+  session.set_operator_(from.operator_());
+  session.set_joint_source(from.joint_source());
+  session.set_placement(from.placement());
+  session.clear_temperature_c();
+  session.clear_load_kg();
+  if (from.has_temperature_c()) session.set_temperature_c(from.temperature_c());
+  if (from.has_load_kg()) session.set_load_kg(from.load_kg());
+}
+
+absl::StatusOr<v1::Session> PutSession(Transaction& transaction, v1::Session session) {
+  TRUEPOSE_RETURN_IF_ERROR(UpdateSession(transaction, session));
+  return session;
+}
+
 absl::StatusOr<v1::Session> CreateSession(Transaction& transaction, std::string_view session_id,
                                           const v1::Session& session) {
   TRUEPOSE_RETURN_IF_ERROR(CheckUuid(session_id, "session_id"));
@@ -104,22 +127,23 @@ absl::StatusOr<v1::Session> GetSession(Snapshot& snapshot, std::string_view name
 }
 
 absl::StatusOr<Page<v1::Session>> ListSessions(Snapshot& snapshot, std::string_view robot,
-                                               const PageRequest& request) {
+                                               const PageRequest& request,
+                                               const ListFilter<v1::Session>& filter) {
   TRUEPOSE_ASSIGN_OR_RETURN(const std::string robot_id, RobotFilter(snapshot, robot));
-  const ListId id{"sessions", robot_id};
+  const ListId id{"sessions", absl::StrCat(robot_id, "|", filter.Key())};
   TRUEPOSE_ASSIGN_OR_RETURN(const PageStart start, CheckPage(id, request));
   TRUEPOSE_ASSIGN_OR_RETURN(const int64_t before,
                             AfterNumber(start, std::numeric_limits<int64_t>::max()));
   const char* sql =
       robot_id.empty()
-          ? "SELECT sequence, message FROM sessions WHERE $1 = '' AND sequence < $2 "
-            "ORDER BY sequence DESC LIMIT $3"
-          : "SELECT sequence, message FROM sessions WHERE robot_id = $1 AND sequence < $2 "
-            "ORDER BY sequence DESC LIMIT $3";
-  TRUEPOSE_ASSIGN_OR_RETURN(auto rows,
-                            sql::Query(snapshot.sql(), sql, robot_id, before, start.size + 1));
-  return ReadPage<v1::Session>(
-      id, start.size, *rows, [&](const sql::Statement& row) -> absl::StatusOr<v1::Session> {
+          ? "SELECT sequence, message FROM sessions WHERE $1 = '' AND sequence < $2 AND "
+            "deleted <= $3 ORDER BY sequence DESC"
+          : "SELECT sequence, message FROM sessions WHERE robot_id = $1 AND sequence < $2 AND "
+            "deleted <= $3 ORDER BY sequence DESC";
+  TRUEPOSE_ASSIGN_OR_RETURN(
+      auto rows, sql::Query(snapshot.sql(), sql, robot_id, before, filter.show_deleted ? 1 : 0));
+  return ReadFilteredPage<v1::Session>(
+      id, start.size, *rows, filter, [&](const sql::Statement& row) -> absl::StatusOr<v1::Session> {
         TRUEPOSE_ASSIGN_OR_RETURN(v1::Session session, ReadMessage<v1::Session>(row, 1));
         TRUEPOSE_RETURN_IF_ERROR(Complete(snapshot, row.Int64(0), session));
         return session;
@@ -127,12 +151,14 @@ absl::StatusOr<Page<v1::Session>> ListSessions(Snapshot& snapshot, std::string_v
 }
 
 absl::StatusOr<v1::Session> SealSession(Transaction& transaction, std::string_view name,
-                                        int reading_count, std::string_view digest) {
+                                        int reading_count, std::string_view digest,
+                                        const std::string& principal) {
   TRUEPOSE_ASSIGN_OR_RETURN(v1::Session session, GetSession(transaction, name));
   TRUEPOSE_RETURN_IF_ERROR(CheckSeal(session, reading_count, digest));
   if (session.state() == v1::SEALED) return session;
   session.set_state(v1::SEALED);
   session.set_digest(std::string(digest));
+  session.set_sealed_by(principal);
   *session.mutable_seal_time() = ToTimestamp(transaction.now());
   TRUEPOSE_RETURN_IF_ERROR(UpdateSession(transaction, session));
   return session;

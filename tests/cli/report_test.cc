@@ -199,6 +199,7 @@ TEST(TimeText, IsUtc) {
 TEST(ParametersTable, ShowsTwoDigitsOfTheDeviation) {
   v1::ParameterReport parameters;
   v1::ParameterValue& value = *parameters.add_values();
+  parameters.set_identified(1);
   value.set_name("compliance2");
   value.set_group(v1::INTERNAL);
   value.set_identified(2.1234e-4);

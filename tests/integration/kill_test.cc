@@ -94,7 +94,10 @@ void ExpectStored(const std::vector<v1::Reading>& stored, const std::vector<v1::
   EXPECT_TRUE(stored.size() % kBatch == 0 || stored.size() == sent.size())
       << "half a batch was stored";
   for (size_t row = 0; row < stored.size(); ++row) {
-    ASSERT_EQ(stored[row].SerializeAsString(), sent[row].SerializeAsString()) << "row " << row;
+    v1::Reading content = stored[row];
+    EXPECT_TRUE(content.has_server_time()) << "row " << row;
+    content.clear_server_time();
+    ASSERT_EQ(content.SerializeAsString(), sent[row].SerializeAsString()) << "row " << row;
   }
 }
 
@@ -148,17 +151,14 @@ TEST_F(KillTest, AJobFinishesThoughItsServerDies) {
     const auto job = client::WaitForJob(NewClient(*process), absl::StrCat("jobs/", job_id));
     ASSERT_THAT(job, IsOk());
     EXPECT_EQ(job->state(), v1::SUCCEEDED) << job->DebugString();
-    EXPECT_EQ(job->calibration(), absl::StrCat("robots/arm/calibrations/", round + 1));
+    EXPECT_EQ(job->calibration(), "robots/arm/calibrations/1")
+        << "a run after a kill gave other bits: equal content is stored once";
   }
   v1::ListCalibrationsRequest request;
   request.set_robot("robots/arm");
   const auto listed = NewClient(*process).ListCalibrations(request);
   ASSERT_THAT(listed, IsOk());
-  ASSERT_EQ(listed->calibrations_size(), 5);
-  for (const auto& calibration : listed->calibrations()) {
-    EXPECT_EQ(calibration.digest(), listed->calibrations(0).digest())
-        << "a run after a kill gave other bits";
-  }
+  EXPECT_EQ(listed->calibrations_size(), 1);
 }
 
 }  // namespace

@@ -46,6 +46,7 @@ TEST(FewControlRows, BelowFiveThereIsNoInterval) {
 TEST(FewControlRows, AFewThatGotWorseAreNotApplied) {
   Identification identification;
   identification.summary.termination = Termination::kConverged;
+  identification.set.active = {0};  // of the robot's own: there are no frames
   const std::vector<PoseError> small = {{0, 1e-4, -1}, {1, 2e-4, -1}},
                                large = {{0, 3e-4, -1}, {1, 2e-4, -1}};
   EXPECT_EQ(Judge(identification, ParameterSet(), small, large).decision, Decision::kDoNotApply);

@@ -40,8 +40,8 @@ class CalibrationJob : public ::testing::Test {
     const std::string name = store::SessionName(store::Uuid(1));
     ASSERT_TRUE(store_
                     ->Write([&](store::Transaction& transaction) -> absl::Status {
-                      const auto appended =
-                          store::AppendReadings(transaction, name, session.readings());
+                      const auto appended = store::AppendReadings(
+                          transaction, name, store::ReadingBatch(session.readings()));
                       if (!appended.ok()) return appended.status();
                       return store::SealSession(transaction, name, poses, "readings").status();
                     })
@@ -82,6 +82,11 @@ std::string Bits(v1::Calibration calibration) {
   calibration.clear_name();
   calibration.clear_job();
   calibration.clear_create_time();
+  calibration.clear_created_by();
+  calibration.clear_state();
+  calibration.clear_release_steps();
+  calibration.clear_revision();
+  calibration.clear_etag();
   return calibration.SerializeAsString();
 }
 

@@ -104,7 +104,7 @@ TEST_F(Open, AFolderInPlaceOfAFile) {
 TEST_F(Open, ADatabaseOfANewerVersion) {
   ASSERT_TRUE(Store::Open({.path = path_}).ok());
   Sqlite(path_,
-         "INSERT INTO migrations VALUES (9, 'future', 'x', 8, '2030-01-01T00:00:00Z'); PRAGMA "
+         "INSERT INTO migrations VALUES (9, 'future', 'x', 9, '2030-01-01T00:00:00Z'); PRAGMA "
          "user_version = 9");
   ExpectRefused("version 9");
 }

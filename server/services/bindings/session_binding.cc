@@ -29,6 +29,9 @@ class SessionBinding final : public v1::SessionService::CallbackService {
       : call_(call), handlers_(executors.handlers), drain_(drain) {}
 
   TRUEPOSE_BIND(CreateSession, CreateSessionRequest, Session, handlers_)
+  TRUEPOSE_BIND(UpdateSession, UpdateSessionRequest, Session, handlers_)
+  TRUEPOSE_BIND(DeleteSession, DeleteSessionRequest, Session, handlers_)
+  TRUEPOSE_BIND(UndeleteSession, UndeleteSessionRequest, Session, handlers_)
   TRUEPOSE_BIND(GetSession, GetSessionRequest, Session, handlers_)
   TRUEPOSE_BIND(ListSessions, ListSessionsRequest, ListSessionsResponse, handlers_)
   TRUEPOSE_BIND(SealSession, SealSessionRequest, Session, handlers_)
