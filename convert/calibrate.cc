@@ -79,6 +79,16 @@ std::string ComparedText(const JointComparison& joints) {
       other ? "; this result is of the measured ones, --joints commanded takes the others" : "");
 }
 
+// The chapter's mean error is one of positions.
+void WarnOfObjective(const v1::CalibrationInput& input, v1::CalibrationReport* report) {
+  const v1::PoseStatistics& after = report->sets().calibration().after();
+  if (input.options().objective() != "e_op" || !after.has_rotation_deg()) return;
+  report->add_warnings(absl::StrFormat(
+      "objective e_op fits positions alone: orientations were measured and are left %.3f deg RMS "
+      "off; compensate positions only, or use least_squares",
+      after.rotation_deg().rms()));
+}
+
 void FillReport(const v1::CalibrationInput& input, const CalibrationResult& result,
                 const ReadingsProblem& readings, const std::vector<std::string>& warnings,
                 v1::CalibrationReport* report) {
@@ -91,6 +101,7 @@ void FillReport(const v1::CalibrationInput& input, const CalibrationResult& resu
   for (const std::string& warning : warnings) report->add_warnings(warning);
   WarnOfFrames(report);
   WarnOfTemperatures(input, readings, report);
+  WarnOfObjective(input, report);
 }
 
 // The faults of a run that failed, and what may be behind them.

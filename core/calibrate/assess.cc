@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/assessment/flange_rotation.h"
 #include "core/base/random.h"
 #include "core/base/status_macros.h"
 
@@ -95,6 +96,7 @@ Verdict JudgeResult(const CalibrationProblem& problem, const Part& part,
   JudgeVolume(ParameterUncertainty(Measured(part.problem), result.identification),
               ParameterUncertainty(Elsewhere(part.problem, *problem.robot), result.identification),
               UnexplainedOf(result.identification).position_sd_m * std::sqrt(3.0), &verdict);
+  JudgeFlangeRotation(FlangeRotationSd(Measured(part.problem), result.identification), &verdict);
   JudgeSelection(result.selection, &verdict);
   if (result.change) {
     JudgeHeldFit(result.held_fit->chi_square, result.held_fit->degrees_of_freedom,

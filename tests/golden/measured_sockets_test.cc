@@ -53,6 +53,17 @@ TEST(MeasuredSockets, EvenOdd) {
   ExpectApplied(report);
 }
 
+// One ball says where the tool's point is and little of how the hand is turned (3.4 deg).
+// Would catch an "apply" without a word of it, after which compensation turns the hand by 4.6 deg.
+TEST(MeasuredSockets, TheVerdictSaysThatTheOrientationIsOpen) {
+  const v1::CalibrationReport report = ReportOf("even-odd");
+  EXPECT_EQ(report.verdict(), "apply_within_volume");
+  std::string reasons;
+  for (const std::string& reason : report.verdict_reasons()) reasons += reason + "\n";
+  EXPECT_NE(reasons.find("the orientation of the flange is known to 3."), std::string::npos)
+      << reasons;
+}
+
 // Each of the six places shows all of its base but a turn about the line of its two sockets: rank
 // 22 + 3 + 6 * 5. Would catch a rank that is judged millimetres off the sockets, where the turns
 // seem to be seen (61, with standard deviations of degrees and centimetres), and a report that
