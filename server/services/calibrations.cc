@@ -86,6 +86,29 @@ absl::Status CheckRequest(const v1::CompensateRequest& request) {
   return faults.ToStatus();
 }
 
+// More would hold a thread for minutes; a client compares page by page.
+constexpr int kMostComparisons = 100;
+
+absl::Status CheckRequest(const v1::CompareCalibrationsRequest& request) {
+  FaultList faults;
+  if (request.sessions().empty()) faults.Add("sessions", "none", "at least one sealed session");
+  if (request.calibrations().empty()) faults.Add("calibrations", "none", "at least one");
+  for (int i = 0; i < request.sessions_size(); ++i) {
+    const std::string field = absl::StrCat("sessions[", i, "]");
+    faults.AddAll(store::ParseSessionName(request.sessions(i), field).status());
+  }
+  for (int i = 0; i < request.calibrations_size(); ++i) {
+    const std::string field = absl::StrCat("calibrations[", i, "]");
+    faults.AddAll(store::ParseCalibrationName(request.calibrations(i), field).status());
+  }
+  if (request.sessions_size() * request.calibrations_size() > kMostComparisons) {
+    faults.Add("sessions",
+               absl::StrCat(request.sessions_size(), " x ", request.calibrations_size()),
+               absl::StrCat("at most ", kMostComparisons, " evaluations a call"));
+  }
+  return faults.ToStatus();
+}
+
 bool HadPart(const v1::Calibration& calibration, const std::string& session) {
   const auto& sessions = calibration.sessions();
   return std::find(sessions.begin(), sessions.end(), session) != sessions.end();
@@ -102,8 +125,9 @@ absl::StatusOr<v1::Calibration> GetCalibration(const CallContext& call,
 absl::StatusOr<v1::ListCalibrationsResponse> ListCalibrations(
     const CallContext& call, const v1::ListCalibrationsRequest& request) {
   TRUEPOSE_RETURN_IF_ERROR(store::ParseRobotName(request.robot(), "robot").status());
+  TRUEPOSE_ASSIGN_OR_RETURN(const auto filter, FilterOf<v1::Calibration>(request));
   TRUEPOSE_ASSIGN_OR_RETURN(auto page, call.store.Read([&](Snapshot& snapshot) {
-    return store::ListCalibrations(snapshot, request.robot(), PageOf(request));
+    return store::ListCalibrations(snapshot, request.robot(), PageOf(request), filter);
   }));
   return ToResponse(std::move(page), &v1::ListCalibrationsResponse::mutable_calibrations);
 }
@@ -125,6 +149,22 @@ absl::StatusOr<v1::Evaluation> Evaluate(const CallContext& call,
         "this session had a part in the calibration: the figures are no independent check");
   }
   return evaluation;
+}
+
+absl::StatusOr<v1::CompareCalibrationsResponse> CompareCalibrations(
+    const CallContext& call, const v1::CompareCalibrationsRequest& request) {
+  TRUEPOSE_RETURN_IF_ERROR(CheckRequest(request));
+  v1::CompareCalibrationsResponse response;
+  for (const std::string& session : request.sessions()) {
+    for (const std::string& calibration : request.calibrations()) {
+      v1::EvaluateRequest one;
+      one.set_session(session);
+      one.set_calibration(calibration);
+      one.set_observe(request.observe());
+      TRUEPOSE_ASSIGN_OR_RETURN(*response.add_evaluations(), Evaluate(call, one));
+    }
+  }
+  return response;
 }
 
 absl::StatusOr<v1::CompensateResponse> Compensate(const CallContext& call,

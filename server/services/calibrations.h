@@ -22,6 +22,10 @@ absl::StatusOr<v1::ListCalibrationsResponse> ListCalibrations(
 absl::StatusOr<v1::Evaluation> Evaluate(const CallContext& call,
                                         const v1::EvaluateRequest& request);
 // Each target that can't be corrected carries its own fault.
+// Each session under each calibration, as by Evaluate: "before" of each evaluation is the nominal
+// robot. At most 100.
+absl::StatusOr<v1::CompareCalibrationsResponse> CompareCalibrations(
+    const CallContext& call, const v1::CompareCalibrationsRequest& request);
 absl::StatusOr<v1::CompensateResponse> Compensate(const CallContext& call,
                                                   const v1::CompensateRequest& request);
 

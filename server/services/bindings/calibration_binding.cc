@@ -43,6 +43,8 @@ class CalibrationBinding final : public v1::CalibrationService::CallbackService 
   TRUEPOSE_BIND(ActivateCalibration, ActivateCalibrationRequest, Calibration, handlers_)
   TRUEPOSE_BIND(RollBackCalibration, RollBackCalibrationRequest, Calibration, handlers_)
   TRUEPOSE_BIND(Evaluate, EvaluateRequest, Evaluation, compute_)
+  TRUEPOSE_BIND(CompareCalibrations, CompareCalibrationsRequest, CompareCalibrationsResponse,
+                compute_)
   TRUEPOSE_BIND(Compensate, CompensateRequest, CompensateResponse, compute_)
 
   grpc::ServerWriteReactor<v1::CalibrationJob>* WatchCalibrationJob(

@@ -147,5 +147,42 @@ TEST_F(CalibrationsTest, CompensateBoundsTheTargets) {
   EXPECT_THAT(Compensate(call(), request), HasFaultsAt(Fields{"targets"}));
 }
 
+// Would catch an order that a client can't read, and a session or calibration that is left out.
+TEST_F(CalibrationsTest, CompareGivesEachSessionUnderEachCalibration) {
+  AddSimulatedSession(kSession2, "ur10", testing::kCalibrationPoses);
+  AddCalibration("ur10", kSession2, kJob2);
+  v1::CompareCalibrationsRequest request;
+  request.add_sessions(std::string("sessions/") + kSession1);
+  request.add_sessions(std::string("sessions/") + kSession2);
+  request.add_calibrations("robots/ur10/calibrations/1");
+  request.add_calibrations("robots/ur10/calibrations/2");
+  const auto compared = CompareCalibrations(call(), request);
+  ASSERT_THAT(compared, IsOk());
+  ASSERT_EQ(compared->evaluations_size(), 4);
+  EXPECT_EQ(compared->evaluations(1).session(), request.sessions(0));
+  EXPECT_EQ(compared->evaluations(1).calibration(), request.calibrations(1));
+  EXPECT_EQ(compared->evaluations(2).session(), request.sessions(1));
+  EXPECT_LT(compared->evaluations(0).set().after().position_mm().rms(),
+            compared->evaluations(0).set().before().position_mm().rms());
+}
+
+TEST_F(CalibrationsTest, CompareNamesEveryFault) {
+  v1::CompareCalibrationsRequest request;
+  request.add_sessions("yesterday");
+  request.add_calibrations("the new one");
+  EXPECT_THAT(CompareCalibrations(call(), request),
+              HasFaultsAt(Fields{"sessions[0]", "calibrations[0]"}));
+}
+
+// Would catch a filter that is ignored.
+TEST_F(CalibrationsTest, ListTakesAFilter) {
+  v1::ListCalibrationsRequest request;
+  request.set_robot("robots/ur10");
+  request.set_filter("state = \"DRAFT\"");
+  EXPECT_EQ(ListCalibrations(call(), request)->calibrations_size(), 1);
+  request.set_filter("state = \"ACTIVE\"");
+  EXPECT_EQ(ListCalibrations(call(), request)->calibrations_size(), 0);
+}
+
 }  // namespace
 }  // namespace truepose::services
