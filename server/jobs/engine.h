@@ -39,6 +39,11 @@ struct EngineOptions {
   absl::Duration store_retry =
       absl::Seconds(1);  // pause before a refused write (full disk) is tried again
 
+  // Called in the transaction that makes a job SUCCEEDED, with its calibration: what has to happen
+  // with the result in the same commit. An error fails the job. May be empty; may run more than
+  // once, as every closure.
+  std::function<absl::Status(store::Transaction&, const v1::Calibration&)> with_result;
+
   // Told what no caller hears of, such as a result that can't be stored yet; from any thread. May
   // be empty.
   std::function<void(const std::string&)> on_warning;

@@ -5,6 +5,8 @@
 
 #include "core/base/status_macros.h"
 #include "server/jobs/execution.h"
+#include "server/store/calibrations.h"
+#include "server/store/jobs.h"
 
 namespace truepose::jobs {
 namespace {
@@ -64,6 +66,19 @@ bool Worker::RunClaim(const Claim& claim) {
   return running->Finish();
 }
 
+absl::StatusOr<bool> Worker::EndWithResult(Transaction& transaction, const Claim& claim,
+                                           const Outcome& outcome) {
+  TRUEPOSE_ASSIGN_OR_RETURN(const bool ended, EndJob(transaction, claim, outcome));
+  if (!ended || !context_.options.with_result) return ended;
+  TRUEPOSE_ASSIGN_OR_RETURN(const v1::CalibrationJob job,
+                            store::GetJob(transaction, claim.job.name()));
+  if (job.state() != v1::SUCCEEDED) return ended;
+  TRUEPOSE_ASSIGN_OR_RETURN(const v1::Calibration calibration,
+                            store::GetCalibration(transaction, job.calibration()));
+  TRUEPOSE_RETURN_IF_ERROR(context_.options.with_result(transaction, calibration));
+  return ended;
+}
+
 void Worker::StoreOutcome(RunningJob& running, Outcome outcome) {
   const Claim& claim = running.claim();
   context_.At("before_end");
@@ -72,7 +87,7 @@ void Worker::StoreOutcome(RunningJob& running, Outcome outcome) {
     const absl::Status status = context_.store
                                     .Write([&](Transaction& transaction) {
                                       context_.At("in_end");
-                                      auto ended = EndJob(transaction, claim, outcome);
+                                      auto ended = EndWithResult(transaction, claim, outcome);
                                       context_.At("end_written");
                                       return ended;
                                     })

@@ -20,6 +20,9 @@ class Worker {
   absl::StatusOr<std::optional<Claim>> ClaimNext();
   // @returns false when the lease was taken back meanwhile.
   bool RunClaim(const Claim& claim);
+  // The end of the job, and what goes with its result, in one transaction.
+  absl::StatusOr<bool> EndWithResult(store::Transaction& transaction, const Claim& claim,
+                                     const Outcome& outcome);
   // Until it is stored, the lease is lost, or the stop.
   void StoreOutcome(RunningJob& running, Outcome outcome);
 
