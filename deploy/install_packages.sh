@@ -4,9 +4,11 @@ set -euo pipefail
 
 list="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/packages.txt"
 
-is_installed() {
-  [ "$(dpkg-query -W -f='${Status}' "$1" 2>/dev/null)" = "install ok installed" ]
-}
+# Names of what is installed, and of what that provides: another nodejs than Debian's brings its own npm.
+installed="$(dpkg-query -W -f='${db:Status-Status} ${Package}, ${Provides}\n' | sed -n 's/^installed //p' |
+  tr ',' '\n' | sed 's/^ *//; s/ .*//')"
+
+is_installed() { grep -qxF "$1" <<<"$installed"; }
 
 missing=()
 while read -r package; do
