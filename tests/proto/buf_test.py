@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """buf over proto/: its style and comments, and that no release of it is broken. Each check is also given a copy that it
-must refuse: a check that lets that pass fails here."""
+must refuse: a check that lets that pass fails here. And the calls against docs/api.md."""
 
 import os
 import pathlib
@@ -115,6 +115,24 @@ class Released(BufCase):
         for image in sorted((PROTO / "released").glob("*.binpb")):
             with self.subTest(image.name):
                 self.assert_clean("breaking", PROTO, "--against", image)
+
+
+class Documented(unittest.TestCase):
+    def test_every_call_stands_in_the_docs(self):
+        """By its name; the six standard methods of one resource in one row by the resource's."""
+        text = (ROOT / "docs" / "api.md").read_text(encoding="utf-8")
+        standard = re.compile(r"^(Create|Get|List|Update|Delete|Undelete)")
+        calls = [call for file in sorted((PROTO / "truepose").rglob("*.proto"))
+                 for call in re.findall(r"^  rpc (\w+)\(", file.read_text(encoding="utf-8"), re.MULTILINE)]
+        self.assertGreater(len(calls), 80)
+        missing = [call for call in calls
+                   if not re.search(rf"\b{call}\b", text) and not self.stands_as_resource(standard.sub("", call), text)]
+        self.assertEqual(missing, [])
+
+    @staticmethod
+    def stands_as_resource(resource, text):
+        singular = re.sub(r"ies$", "y", resource)
+        return re.search(rf"(`|Undelete)({singular}|{singular.removesuffix('s')})\b", text) is not None
 
 
 if __name__ == "__main__":
