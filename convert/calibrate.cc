@@ -5,6 +5,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "absl/time/time.h"
 #include "convert/digest.h"
 #include "convert/prepared_calibration.h"
 #include "convert/repeatability.h"
@@ -79,6 +80,19 @@ std::string ComparedText(const JointComparison& joints) {
       other ? "; this result is of the measured ones, --joints commanded takes the others" : "");
 }
 
+// A measured pose is as traceable as the instrument was when it was measured.
+void WarnOfCertificates(const v1::CalibrationInput& input, v1::CalibrationReport* report) {
+  for (const v1::SessionInput& each : input.sessions()) {
+    const v1::Session& session = each.session();
+    if (!session.has_certificate_expired_time()) continue;
+    const absl::Time expired = absl::FromUnixSeconds(session.certificate_expired_time().seconds());
+    report->add_warnings(absl::StrCat(
+        "the certificate of ", session.instrument(), " had expired on ",
+        absl::FormatTime("%Y-%m-%d", expired, absl::UTCTimeZone()), " when ", session.name(),
+        " was sealed: its measured poses are not traceable; have the instrument checked"));
+  }
+}
+
 // The chapter's mean error is one of positions.
 void WarnOfObjective(const v1::CalibrationInput& input, v1::CalibrationReport* report) {
   const v1::PoseStatistics& after = report->sets().calibration().after();
@@ -102,6 +116,7 @@ void FillReport(const v1::CalibrationInput& input, const CalibrationResult& resu
   WarnOfFrames(report);
   WarnOfTemperatures(input, readings, report);
   WarnOfObjective(input, report);
+  WarnOfCertificates(input, report);
 }
 
 // The faults of a run that failed, and what may be behind them.

@@ -1,5 +1,6 @@
 #include "server/services/sessions.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,12 +9,15 @@
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
 #include "server/resource/field_mask.h"
+#include "server/resource/registry.h"
+#include "server/resource/standard_methods.h"
 #include "server/services/closures.h"
 #include "server/services/live.h"
 #include "server/store/message.h"
 #include "server/store/names.h"
 #include "server/store/readings.h"
 #include "server/store/sessions.h"
+#include "truepose/v1/plant.pb.h"
 
 namespace truepose::services {
 namespace {
@@ -23,9 +27,17 @@ using store::Transaction;
 
 // Everything else is the server's, or is what the readings were measured for.
 const std::vector<std::string>& OutputOnly() {
-  static const auto& fields = *new std::vector<std::string>{
-      "robot",  "nominal_revision", "source",    "extra_columns", "state",
-      "digest", "reading_count",    "seal_time", "sealed_by",     "created_by"};
+  static const auto& fields = *new std::vector<std::string>{"robot",
+                                                            "nominal_revision",
+                                                            "source",
+                                                            "extra_columns",
+                                                            "state",
+                                                            "digest",
+                                                            "reading_count",
+                                                            "seal_time",
+                                                            "sealed_by",
+                                                            "created_by",
+                                                            "certificate_expired_time"};
   return fields;
 }
 
@@ -54,6 +66,24 @@ absl::StatusOr<v1::Session> SetDeleted(Transaction& transaction, const std::stri
   session.clear_delete_time();
   if (deleted) *session.mutable_delete_time() = store::ToTimestamp(transaction.now());
   return store::PutSession(transaction, session);
+}
+
+// When the certificate of the session's instrument expired, if it has. An instrument that isn't
+// registered has none that is known.
+absl::StatusOr<std::optional<google::protobuf::Timestamp>> ExpiredCertificate(
+    Transaction& transaction, const std::string& name) {
+  TRUEPOSE_ASSIGN_OR_RETURN(const v1::Session session, store::GetSession(transaction, name));
+  v1::Instrument instrument;
+  const absl::Status found =
+      resource::Get(transaction, *resource::FindType(v1::Instrument::descriptor()),
+                    session.instrument(), "instrument", instrument);
+  if (absl::IsNotFound(found) || absl::IsInvalidArgument(found)) return std::nullopt;
+  TRUEPOSE_RETURN_IF_ERROR(found);
+  const auto& expires = instrument.certificate_expire_time();
+  if (!instrument.has_certificate_expire_time() ||
+      expires.seconds() >= absl::ToUnixSeconds(transaction.now()))
+    return std::nullopt;
+  return expires;
 }
 
 }  // namespace
@@ -119,9 +149,10 @@ absl::StatusOr<v1::Session> SealSession(const CallContext& call,
     return store::AllReadings(snapshot, request.name());
   }));
   const std::string digest = convert::ReadingsDigest(readings);
-  return WriteOnce(call, request, [&](Transaction& transaction) {
+  return WriteOnce(call, request, [&](Transaction& transaction) -> absl::StatusOr<v1::Session> {
+    TRUEPOSE_ASSIGN_OR_RETURN(const auto expired, ExpiredCertificate(transaction, request.name()));
     return store::SealSession(transaction, request.name(), request.reading_count(), digest,
-                              call.caller.principal);
+                              {call.caller.principal, expired});
   });
 }
 

@@ -152,13 +152,15 @@ absl::StatusOr<Page<v1::Session>> ListSessions(Snapshot& snapshot, std::string_v
 
 absl::StatusOr<v1::Session> SealSession(Transaction& transaction, std::string_view name,
                                         int reading_count, std::string_view digest,
-                                        const std::string& principal) {
+                                        const Sealing& sealing) {
   TRUEPOSE_ASSIGN_OR_RETURN(v1::Session session, GetSession(transaction, name));
   TRUEPOSE_RETURN_IF_ERROR(CheckSeal(session, reading_count, digest));
   if (session.state() == v1::SEALED) return session;
   session.set_state(v1::SEALED);
   session.set_digest(std::string(digest));
-  session.set_sealed_by(principal);
+  session.set_sealed_by(sealing.principal);
+  if (sealing.certificate_expired)
+    *session.mutable_certificate_expired_time() = *sealing.certificate_expired;
   *session.mutable_seal_time() = ToTimestamp(transaction.now());
   TRUEPOSE_RETURN_IF_ERROR(UpdateSession(transaction, session));
   return session;

@@ -1,9 +1,12 @@
 // Measurement sessions: OPEN -> SEALED. A sealed session never changes again.
 #pragma once
 
+#include <optional>
+#include <string>
 #include <string_view>
 
 #include "absl/status/statusor.h"
+#include "google/protobuf/timestamp.pb.h"
 #include "server/store/list.h"
 #include "server/store/page.h"
 #include "server/store/transaction.h"
@@ -31,6 +34,13 @@ absl::StatusOr<Page<v1::Session>> ListSessions(Snapshot& snapshot, std::string_v
                                                const PageRequest& request,
                                                const ListFilter<v1::Session>& filter = {});
 
+// What a session keeps of the moment when it was sealed, beside count and digest.
+struct Sealing {
+  std::string principal;
+  // Of the instrument, when it had expired by then.
+  std::optional<google::protobuf::Timestamp> certificate_expired = {};
+};
+
 // Closes a session for readings. `digest` is of all its readings (convert::ReadingsDigest). A
 // repeat with the same count and digest returns the session.
 // @returns kFailedPrecondition with a fault when `reading_count` isn't what is stored, when it has
@@ -38,6 +48,6 @@ absl::StatusOr<Page<v1::Session>> ListSessions(Snapshot& snapshot, std::string_v
 //   when it is sealed with another digest.
 absl::StatusOr<v1::Session> SealSession(Transaction& transaction, std::string_view name,
                                         int reading_count, std::string_view digest,
-                                        const std::string& principal = "");
+                                        const Sealing& sealing = {});
 
 }  // namespace truepose::store

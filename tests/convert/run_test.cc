@@ -12,8 +12,10 @@
 namespace truepose::convert {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 v1::Calibration MustRun(const v1::CalibrationInput& input) {
   auto calibration = RunCalibration(input);
@@ -48,6 +50,17 @@ TEST(RunCalibration, ReportIsWhole) {
     if (residual.control()) squares += residual.after_position_mm() * residual.after_position_mm();
   }
   EXPECT_NEAR(std::sqrt(squares / 30), report.sets().control().after().position_mm().rms(), 1e-12);
+}
+
+// Would catch measured poses of an instrument whose certificate had run out, and nobody is told.
+TEST(RunCalibration, SaysThatACertificateHadExpired) {
+  v1::CalibrationInput input = SampleInput();
+  EXPECT_THAT(MustRun(input).report().warnings(), Not(Contains(HasSubstr("certificate"))));
+  v1::Session& session = *input.mutable_sessions(0)->mutable_session();
+  session.set_instrument("instruments/tracker");
+  session.mutable_certificate_expired_time()->set_seconds(1740787200);  // 2025-03-01
+  EXPECT_THAT(MustRun(input).report().warnings(),
+              Contains(HasSubstr("certificate of instruments/tracker had expired on 2025-03-01")));
 }
 
 // Reported values are SI values in mm and deg, deviations the root of the covariance's diagonal.

@@ -18,15 +18,16 @@ import operators
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SECONDS_OF_ONE_RUN = 900
+SECONDS_OF_THE_FIRST_BUILD = 3600  # nothing is built yet
 # All tests of core; quick ones first, since the first failure decides.
 TESTS_OF_CORE = ("tests/core", "tests/laws", "tests/golden")
 
 
-def run(*command, cwd):
+def run(*command, cwd, seconds=SECONDS_OF_ONE_RUN):
     """Exit code and output; a run that does not end counts as failed, such as a loop that a mutant made endless."""
     try:
         done = subprocess.run(command, cwd=cwd, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                              errors="replace", timeout=SECONDS_OF_ONE_RUN)
+                              errors="replace", timeout=seconds)
         return done.returncode, done.stdout
     except subprocess.TimeoutExpired as late:
         return 1, str(late)
@@ -42,7 +43,7 @@ class Copy:
         shared = os.environ.get("TRUEPOSE_SHARED", str(ROOT.parent / "shared"))
         self._demand(run("cmake", "-G", "Ninja", "-S", str(self.tree), "-B", str(self.build), "-DCMAKE_BUILD_TYPE=RelWithDebInfo",
                          "-DTRUEPOSE_BUILD_SERVICE=OFF", f"-DTRUEPOSE_SHARED={shared}", cwd=self.tree))
-        self._demand(self.compile())
+        self._demand(self.compile(seconds=SECONDS_OF_THE_FIRST_BUILD))
         self._demand(self.test())
 
     @staticmethod
@@ -50,8 +51,8 @@ class Copy:
         if outcome[0] != 0:
             sys.exit(outcome[1][-4000:] + "\nmutate.py: the tree without any mutation must build and pass")
 
-    def compile(self):
-        return run("ninja", *(f"{folder}/all" for folder in TESTS_OF_CORE), cwd=self.build)
+    def compile(self, seconds=SECONDS_OF_ONE_RUN):
+        return run("ninja", *(f"{folder}/all" for folder in TESTS_OF_CORE), cwd=self.build, seconds=seconds)
 
     def test(self):
         """The first test folder that fails, or the last one."""

@@ -1,7 +1,11 @@
 #include "server/services/sessions.h"
 
+#include <tuple>
+
 #include "absl/strings/str_cat.h"
+#include "server/services/standard.h"
 #include "tests/server/testing/handler_test.h"
+#include "truepose/v1/plant_services.pb.h"
 
 namespace truepose::services {
 namespace {
@@ -195,6 +199,31 @@ TEST_F(SessionsTest, SealedSessionHasADigestAndTakesNothing) {
   ASSERT_THAT(again, IsOk());
   EXPECT_EQ(again->SerializeAsString(), sealed->SerializeAsString());
   EXPECT_THAT(Append(Batch(kSession1, 3, 1)), HasCode(absl::StatusCode::kFailedPrecondition));
+}
+
+// Would catch a certificate that had run out and nobody hears of it, or that a valid one is said to
+// have: what counts is the moment of sealing.
+TEST_F(SessionsTest, SealKeepsThatTheCertificateHadExpired) {
+  const auto add = [&](const std::string& id, int64_t expires) {
+    v1::CreateInstrumentRequest request;
+    request.set_instrument_id(id);
+    request.mutable_instrument()->set_serial(id);
+    request.mutable_instrument()->mutable_certificate_expire_time()->set_seconds(expires);
+    v1::Instrument created;
+    ASSERT_THAT(CreateStandard(call(), request, created), IsOk());
+  };
+  add("old", 1000000000);
+  add("new", 9000000000);
+  for (const auto& [session, instrument, expired] :
+       {std::tuple{kSession1, "old", true}, std::tuple{kSession2, "new", false}}) {
+    auto request = SessionRequest(session, "robots/ur10");
+    request.mutable_session()->set_instrument(absl::StrCat("instruments/", instrument));
+    ASSERT_THAT(CreateSession(call(), request), IsOk());
+    ASSERT_THAT(Append(Batch(session, 0, 3)), IsOk());
+    const auto sealed = SealSession(call(), Seal(Name(session), 3));
+    ASSERT_THAT(sealed, IsOk());
+    EXPECT_EQ(sealed->certificate_expired_time().seconds(), expired ? 1000000000 : 0);
+  }
 }
 
 // Would catch a session that is sealed with readings missing.
