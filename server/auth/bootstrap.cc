@@ -26,6 +26,7 @@ absl::Status WriteNew(const std::string& path, const std::string& text) {
   const std::string reason = std::strerror(errno);
   if (file >= 0) close(file);
   if (written) return absl::OkStatus();
+  if (file >= 0) unlink(path.c_str());
   return store::Refusal(absl::StatusCode::kFailedPrecondition, path, reason,
                         "a file that can be written, for the first admin's secret");
 }
@@ -42,6 +43,10 @@ absl::StatusOr<std::unique_ptr<Bootstrap>> Bootstrap::Begin(const std::string& p
   TRUEPOSE_RETURN_IF_ERROR(WriteNew(path, secret + "\n"));
   bootstrap->hash_ = HashOf(secret);
   return bootstrap;
+}
+
+Bootstrap::~Bootstrap() {
+  if (!hash_.empty()) unlink(path_.c_str());
 }
 
 absl::Status Bootstrap::Use(std::string_view secret, const std::function<absl::Status()>& grant) {

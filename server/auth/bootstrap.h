@@ -21,6 +21,9 @@ class Bootstrap {
   // @returns kFailedPrecondition with a fault of `path` when the file can't be written.
   static absl::StatusOr<std::unique_ptr<Bootstrap>> Begin(const std::string& path, bool wanted);
 
+  // Removes a file that was not used: without this server its secret is worth nothing.
+  ~Bootstrap();
+
   // Runs `grant` when `secret` is right. When that returns OK, the secret is used up and the file
   // removed; else it may be tried again.
   // @returns grant's status; kFailedPrecondition when no bootstrap is due; kPermissionDenied for
