@@ -122,11 +122,14 @@ absl::Status Denied(const std::string& found, const std::string& expected) {
 
 std::span<const AccessRow> AccessTable() { return kTable; }
 
-std::optional<Access> AccessTo(std::string_view service, std::string_view method) {
+std::optional<Access> AccessTo(std::string_view method) {
+  std::optional<Access> access;
   for (const AccessRow& row : kTable) {
-    if (row.service == service && row.method == method) return row.access;
+    if (row.method != method) continue;
+    if (access.has_value()) return std::nullopt;
+    access = row.access;
   }
-  return std::nullopt;
+  return access;
 }
 
 absl::Status CheckAccess(const std::optional<Access>& access, const Caller& caller) {

@@ -25,11 +25,13 @@ struct AccessRow {
   Access access;
 };
 
-// A row for each RPC of each service of proto/truepose/v1; a test holds it so.
+// A row for each RPC of each service of proto/truepose/v1; a test holds it so, and that no two RPCs
+// have one name.
 std::span<const AccessRow> AccessTable();
 
-// Nothing when there is no row: then nobody may.
-std::optional<Access> AccessTo(std::string_view service, std::string_view method);
+// Nothing when there is no row, or more than one: then nobody may. Ask it once an RPC, not once a
+// call.
+std::optional<Access> AccessTo(std::string_view method);
 
 // @returns kPermissionDenied with a fault of `authorization` that says whose token may.
 absl::Status CheckAccess(const std::optional<Access>& access, const Caller& caller);

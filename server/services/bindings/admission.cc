@@ -6,16 +6,6 @@
 
 namespace truepose::services {
 
-std::optional<auth::Access> AccessOf(const google::protobuf::Descriptor& request,
-                                     std::string_view method) {
-  const google::protobuf::FileDescriptor& file = *request.file();
-  for (int i = 0; i < file.service_count(); ++i) {
-    if (file.service(i)->FindMethodByName(std::string(method)) != nullptr)
-      return auth::AccessTo(file.service(i)->full_name(), method);
-  }
-  return std::nullopt;
-}
-
 absl::StatusOr<CallContext> Admit(const CallContext& call,
                                   const std::optional<auth::Access>& access,
                                   const grpc::CallbackServerContext& context) {

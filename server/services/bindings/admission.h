@@ -3,24 +3,16 @@
 #pragma once
 
 #include <optional>
-#include <string_view>
 #include <utility>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
-#include "google/protobuf/descriptor.h"
 #include "grpcpp/server_context.h"
 #include "server/auth/access_table.h"
 #include "server/rpc/unary.h"
 #include "server/services/call_context.h"
 
 namespace truepose::services {
-
-// What the table of access says of the RPC `method` in the file of its request; nothing = closed.
-// Ask it once an RPC, not once a call. Where request and service stand in two files:
-// auth::AccessTo.
-std::optional<auth::Access> AccessOf(const google::protobuf::Descriptor& request,
-                                     std::string_view method);
 
 // The context of one call: `call` with who calls, by its metadata `authorization`.
 // @returns kUnauthenticated, kPermissionDenied; kInternal without an administration, so that

@@ -28,7 +28,7 @@ std::unique_ptr<grpc::Service> BindAdminService(const CallContext& call,
 #define TRUEPOSE_BIND(Method, Request, Response, executor)                                        \
   grpc::ServerUnaryReactor* Method(grpc::CallbackServerContext* context,                          \
                                    const v1::Request* request, v1::Response* response) override { \
-    static const auto access = AccessOf(*v1::Request::descriptor(), #Method);                     \
+    static const auto access = auth::AccessTo(#Method);                                           \
     return RunAdmitted(                                                                           \
         call_, access, #Method, context, executor, response,                                      \
         [request](const CallContext& call) { return services::Method(call, *request); });         \
@@ -40,7 +40,7 @@ std::unique_ptr<grpc::Service> BindAdminService(const CallContext& call,
   grpc::ServerUnaryReactor* Method(grpc::CallbackServerContext* context,                       \
                                    const v1::Method##Request* request, v1::Response* response) \
       override {                                                                               \
-    static const auto access = AccessOf(*v1::Method##Request::descriptor(), #Method);          \
+    static const auto access = auth::AccessTo(#Method);                                        \
     return RunAdmitted(call_, access, #Method, context, handlers_, response,                   \
                        [request](const CallContext& call) -> absl::StatusOr<v1::Response> {    \
                          v1::Response made;                                                    \

@@ -57,7 +57,7 @@ class CalibrationBinding final : public v1::CalibrationService::CallbackService 
       const v1::WatchCalibrationJobRequest* request) override {
     const auto stream = JobStream::Make(rpc::MakeCall("WatchCalibrationJob", *context));
     drain_.Add(stream);
-    static const auto access = AccessOf(*request->GetDescriptor(), "WatchCalibrationJob");
+    static const auto access = auth::AccessTo("WatchCalibrationJob");
     const absl::StatusOr<CallContext> call = Admit(call_, access, *context);
     if (!call.ok()) {
       stream->End(call.status());

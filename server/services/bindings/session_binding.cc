@@ -55,7 +55,7 @@ class SessionBinding final : public v1::SessionService::CallbackService {
   grpc::ServerBidiReactor<v1::AppendReadingsRequest, v1::AppendReadingsResponse>* AppendReadings(
       grpc::CallbackServerContext* context) override {
     using Stream = rpc::AckStream<v1::AppendReadingsRequest, v1::AppendReadingsResponse>;
-    static const auto access = AccessOf(*v1::AppendReadingsRequest::descriptor(), "AppendReadings");
+    static const auto access = auth::AccessTo("AppendReadings");
     const absl::StatusOr<CallContext> call = Admit(call_, access, *context);
     std::unique_ptr<Stream::Handler> handler;
     if (call.ok()) handler = std::make_unique<Appender>(*call);

@@ -1,6 +1,8 @@
+#include <string>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "core/base/error_metadata.h"
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
 #include "server/rpc/pull_stream.h"
@@ -31,9 +33,12 @@ struct Watcher {
   }
 
   absl::Status TooSlow() const {
-    return store::Refusal(
-        absl::StatusCode::kResourceExhausted, "after_revision", "a reader that is too slow",
-        absl::StrCat("a watch that resumes from revision ", watch->resume_revision()));
+    const std::string revision = absl::StrCat(watch->resume_revision());
+    return WithErrorMetadata(
+        store::Refusal(absl::StatusCode::kResourceExhausted, "after_revision",
+                       "a reader that is too slow",
+                       absl::StrCat("a watch that resumes from revision ", revision)),
+        "resume_revision", revision);
   }
 };
 
@@ -48,7 +53,7 @@ class WatchBinding final : public v1::WatchService::CallbackService {
     const auto stream =
         Stream::Make(context, rpc::MakeCall("Watch", *context), handlers_, settings_.stall);
     drain_.Add(stream);
-    static const auto access = auth::AccessTo(v1::WatchService::service_full_name(), "Watch");
+    static const auto access = auth::AccessTo("Watch");
     const absl::StatusOr<CallContext> call = Admit(call_, access, *context);
     if (!call.ok()) {
       stream->End(call.status());

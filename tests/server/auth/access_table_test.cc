@@ -65,9 +65,10 @@ std::string NameOf(const AccessRow& row) {
 TEST(AccessTableTest, EveryRpcHasARow) {
   const std::set<std::string> rpcs = AllRpcs();
   ASSERT_GT(rpcs.size(), 90u) << "the services were not found";
-  std::set<std::string> rows;
+  std::set<std::string> rows, methods;
   for (const AccessRow& row : AccessTable()) {
     EXPECT_TRUE(rows.insert(NameOf(row)).second) << "two rows of " << NameOf(row);
+    EXPECT_TRUE(methods.emplace(row.method).second) << "bindings ask by name: " << row.method;
   }
   for (const std::string& rpc : rpcs) EXPECT_TRUE(rows.contains(rpc)) << "no row: " << rpc;
   for (const std::string& row : rows) EXPECT_TRUE(rpcs.contains(row)) << "no RPC: " << row;
@@ -103,7 +104,8 @@ TEST(AccessTableTest, WhoMayWhat) {
   EXPECT_THAT(CheckAccess(Access::kPerson, Machine()), denied);
   EXPECT_THAT(CheckAccess(Access::kAdmin, Person()), denied);
   EXPECT_THAT(CheckAccess(std::nullopt, Caller()), denied);
-  EXPECT_EQ(AccessTo("truepose.v1.RobotService", "GetRobots"), std::nullopt);
+  EXPECT_EQ(AccessTo("GetRobot"), Access::kToken);
+  EXPECT_EQ(AccessTo("GetRobots"), std::nullopt);
 }
 
 }  // namespace
