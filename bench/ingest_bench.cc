@@ -46,6 +46,7 @@ class Folder {
 
 std::unique_ptr<server::Server> StartServer(const Folder& folder) {
   server::ServerOptions options;
+  options.dev_open = true;
   options.listen = "127.0.0.1:0";
   options.database = folder.File("truepose.db");
   return Demand(server::Server::Start(options, server::CalibrationRunner()));

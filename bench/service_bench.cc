@@ -1,11 +1,12 @@
-// The whole of UR10 series C through a real server: read from its file, imported over a socket into a database file,
-// sealed, calibrated (even rows), result fetched. A fresh server and database each time, its start included.
+// The whole of UR10 series C through a real server: read from its file, imported over a socket into
+// a database file, sealed, calibrated (even rows), result fetched. A fresh server and database each
+// time, its start included.
+#include <benchmark/benchmark.h>
+
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
-
-#include <benchmark/benchmark.h>
 
 #include "bench/shared_problem.h"
 #include "client/append_readings.h"
@@ -46,13 +47,15 @@ class Folder {
 
 std::unique_ptr<server::Server> StartServer(const Folder& folder) {
   server::ServerOptions options;
+  options.dev_open = true;
   options.listen = "127.0.0.1:0";
   options.database = folder.File("truepose.db");
   return Demand(server::Server::Start(options, server::CalibrationRunner()));
 }
 
 formats::RobotFile AddRobot(const client::Client& client) {
-  formats::RobotFile file = Demand(formats::ReadRobotFile(TRUEPOSE_SOURCE_DIR "/deploy/examples/ur10.yaml"));
+  formats::RobotFile file =
+      Demand(formats::ReadRobotFile(TRUEPOSE_SOURCE_DIR "/deploy/examples/ur10.yaml"));
   v1::CreateRobotRequest request;
   request.set_robot_id(file.robot_id);
   *request.mutable_nominal() = file.nominal;
@@ -61,7 +64,8 @@ formats::RobotFile AddRobot(const client::Client& client) {
 }
 
 int Import(const client::Client& client, const formats::RobotFile& robot) {
-  const auto file = Demand(formats::ReadSessionFile(SharedFolder() + "/data/ipa_ur10/series_C.csv", robot.nominal));
+  const auto file = Demand(
+      formats::ReadSessionFile(SharedFolder() + "/data/ipa_ur10/series_C.csv", robot.nominal));
   v1::CreateSessionRequest create;
   create.set_session_id(kSession);
   *create.mutable_session() = file.session;
@@ -93,7 +97,8 @@ void SeriesC(benchmark::State& state) {
     const formats::RobotFile robot = AddRobot(client);
     state.counters["readings"] = Import(client, robot);
     const v1::Calibration calibration = CalibrateOnServer(client, robot);
-    state.counters["control_rms_mm"] = calibration.report().sets().control().after().position_mm().rms();
+    state.counters["control_rms_mm"] =
+        calibration.report().sets().control().after().position_mm().rms();
   }
 }
 BENCHMARK(SeriesC)->Iterations(1)->Repetitions(5)->Unit(benchmark::kSecond)->UseRealTime();

@@ -7,6 +7,8 @@
 #include "client/channel.h"
 #include "client/client_impl.h"
 #include "client/status.h"
+#include "client/token_file.h"
+#include "core/base/fault.h"
 #include "core/base/status_macros.h"
 
 namespace truepose::client {
@@ -18,7 +20,8 @@ constexpr int kComputeFactor = 10;
 // Where a call goes to and how long it may take.
 struct Target {
   const std::string& address;
-  std::chrono::milliseconds timeout;
+  const ClientOptions& options;
+  int factor;  // of the time that a call may take
 };
 
 // One unary call of `stub` with the deadline, the metadata and the statuses of this library.
@@ -28,8 +31,9 @@ absl::StatusOr<Response> Call(const Target& target, Stub& stub,
                                                            Response*),
                               const Request& request) {
   grpc::ClientContext context;
-  context.set_deadline(std::chrono::system_clock::now() + target.timeout);
-  PrepareContext(context);
+  context.set_deadline(std::chrono::system_clock::now() +
+                       target.options.call_timeout * target.factor);
+  PrepareContext(context, target.options);
   Response response;
   const grpc::Status status = (stub.*method)(&context, request, &response);
   if (!status.ok()) return FromGrpcStatus(status, target.address);
@@ -38,12 +42,15 @@ absl::StatusOr<Response> Call(const Target& target, Stub& stub,
 
 }  // namespace
 
-void PrepareContext(grpc::ClientContext& context) {
+void PrepareContext(grpc::ClientContext& context, const ClientOptions& options) {
   context.AddMetadata(kErrorBytesKey, kErrorBytes);
+  if (IsSecret(options.token)) context.AddMetadata("authorization", "Bearer " + options.token);
 }
 
 absl::StatusOr<Client> Client::Connect(const std::string& address, ClientOptions options) {
   TRUEPOSE_RETURN_IF_ERROR(ValidateAddress(address));
+  if (!options.token.empty() && !IsSecret(options.token))
+    return FaultStatus("token", "something else", "the secret of a token");
   return Client(MakeChannel(address), address, options);
 }
 
@@ -52,7 +59,8 @@ Client::Impl::Impl(std::shared_ptr<grpc::Channel> channel, std::string server, C
       options(limits),
       robots(v1::RobotService::NewStub(channel)),
       sessions(v1::SessionService::NewStub(channel)),
-      calibrations(v1::CalibrationService::NewStub(channel)) {}
+      calibrations(v1::CalibrationService::NewStub(channel)),
+      admin(v1::AdminService::NewStub(channel)) {}
 
 Client::Client(std::shared_ptr<grpc::Channel> channel, std::string address, ClientOptions options)
     : impl_(std::make_unique<Impl>(std::move(channel), std::move(address), options)) {}
@@ -64,16 +72,18 @@ Client::~Client() = default;
 const std::string& Client::address() const { return impl_->address; }
 
 // A typed call is nothing but its stub's method.
-#define TRUEPOSE_CALL(Service, service, Method, Request, Response, factor)        \
-  absl::StatusOr<v1::Response> Client::Method(const v1::Request& request) const { \
-    return Call<v1::Service::Stub, v1::Request, v1::Response>(                    \
-        {impl_->address, impl_->options.call_timeout * factor}, *impl_->service,  \
-        &v1::Service::Stub::Method, request);                                     \
+#define TRUEPOSE_CALL(Service, service, Method, Request, Response, factor)                     \
+  absl::StatusOr<v1::Response> Client::Method(const v1::Request& request) const {              \
+    return Call<v1::Service::Stub, v1::Request, v1::Response>(                                 \
+        {impl_->address, impl_->options, factor}, *impl_->service, &v1::Service::Stub::Method, \
+        request);                                                                              \
   }
 #define TRUEPOSE_ROBOT_CALL(Method, Response) \
   TRUEPOSE_CALL(RobotService, robots, Method, Method##Request, Response, 1)
 #define TRUEPOSE_SESSION_CALL(Method, Response) \
   TRUEPOSE_CALL(SessionService, sessions, Method, Method##Request, Response, 1)
+#define TRUEPOSE_ADMIN_CALL(Method, Response) \
+  TRUEPOSE_CALL(AdminService, admin, Method, Method##Request, Response, 1)
 #define TRUEPOSE_CALIBRATION_CALL(Method, Response, factor) \
   TRUEPOSE_CALL(CalibrationService, calibrations, Method, Method##Request, Response, factor)
 
@@ -96,5 +106,10 @@ TRUEPOSE_CALIBRATION_CALL(GetCalibration, Calibration, 1)
 TRUEPOSE_CALIBRATION_CALL(ListCalibrations, ListCalibrationsResponse, 1)
 TRUEPOSE_CALIBRATION_CALL(Evaluate, Evaluation, kComputeFactor)
 TRUEPOSE_CALIBRATION_CALL(Compensate, CompensateResponse, kComputeFactor)
+TRUEPOSE_ADMIN_CALL(Bootstrap, CreateTokenResponse)
+TRUEPOSE_ADMIN_CALL(CreateToken, CreateTokenResponse)
+TRUEPOSE_ADMIN_CALL(ListTokens, ListTokensResponse)
+TRUEPOSE_ADMIN_CALL(RevokeToken, Token)
+TRUEPOSE_ADMIN_CALL(GetServerStatus, ServerStatus)
 
 }  // namespace truepose::client

@@ -18,6 +18,7 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "truepose/v1/admin_services.pb.h"
 #include "truepose/v1/calibration.pb.h"
 #include "truepose/v1/robot.pb.h"
 #include "truepose/v1/services.pb.h"
@@ -35,13 +36,17 @@ struct ClientOptions {
   // Of one call, its repeats included. Evaluate and Compensate compute on the server and get ten
   // times as long.
   std::chrono::milliseconds call_timeout{30'000};
+  // The secret of the caller's token (token_file.h), sent with every call and said in no message;
+  // "" = none.
+  std::string token = {};
 };
 
 class Client {
  public:
   // @param address "host:port", "unix:/path" or "unix:relative/path".
   // Does not connect yet: an unreachable server shows at the first call.
-  // @returns kInvalidArgument with a fault when the address can't be read.
+  // @returns kInvalidArgument with a fault when the address can't be read, or the token can't be
+  // sent.
   static absl::StatusOr<Client> Connect(const std::string& address, ClientOptions options = {});
 
   // Over a channel that is there already, such as one within the process. `address` is for
@@ -82,6 +87,12 @@ class Client {
       const v1::ListCalibrationsRequest& request) const;
   absl::StatusOr<v1::Evaluation> Evaluate(const v1::EvaluateRequest& request) const;
   absl::StatusOr<v1::CompensateResponse> Compensate(const v1::CompensateRequest& request) const;
+
+  absl::StatusOr<v1::CreateTokenResponse> Bootstrap(const v1::BootstrapRequest& request) const;
+  absl::StatusOr<v1::CreateTokenResponse> CreateToken(const v1::CreateTokenRequest& request) const;
+  absl::StatusOr<v1::ListTokensResponse> ListTokens(const v1::ListTokensRequest& request) const;
+  absl::StatusOr<v1::Token> RevokeToken(const v1::RevokeTokenRequest& request) const;
+  absl::StatusOr<v1::ServerStatus> GetServerStatus(const v1::GetServerStatusRequest& request) const;
 
   // One stream of the job's states: the present one, then each change. `on_job` is called in this
   // thread and ends the stream by returning false. `is_cancelled`, when given, is asked a few times

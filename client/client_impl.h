@@ -7,6 +7,7 @@
 #include "client/client.h"
 #include "grpcpp/channel.h"
 #include "grpcpp/client_context.h"
+#include "truepose/v1/admin_services.grpc.pb.h"
 #include "truepose/v1/services.grpc.pb.h"
 
 namespace truepose::client {
@@ -19,9 +20,10 @@ struct Client::Impl {
   std::unique_ptr<v1::RobotService::Stub> robots;
   std::unique_ptr<v1::SessionService::Stub> sessions;
   std::unique_ptr<v1::CalibrationService::Stub> calibrations;
+  std::unique_ptr<v1::AdminService::Stub> admin;
 };
 
-// The metadata that every call carries.
-void PrepareContext(grpc::ClientContext& context);
+// The metadata that every call carries, the token's secret among them.
+void PrepareContext(grpc::ClientContext& context, const ClientOptions& options);
 
 }  // namespace truepose::client

@@ -12,6 +12,7 @@ enum ExitCode : int {
   kExitUnavailable = 4,  // the server is unreachable, or the address to serve at is taken
   kExitDatabase = 5,     // the database can't be opened or used
   kExitNotFound = 6,     // no resource has that name
+  kExitNotAllowed = 7,   // no token, one that holds no longer, or one that may not
 };
 
 }  // namespace truepose::client

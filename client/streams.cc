@@ -45,9 +45,10 @@ class CancelWatcher {
 
 class GrpcAppendStream : public AppendStream {
  public:
-  GrpcAppendStream(v1::SessionService::Stub& stub, std::string address)
+  GrpcAppendStream(v1::SessionService::Stub& stub, std::string address,
+                   const ClientOptions& options)
       : address_(std::move(address)) {
-    PrepareContext(context_);
+    PrepareContext(context_, options);
     stream_ = stub.AppendReadings(&context_);
   }
   // A stream that was not finished is given up; the server keeps what it acknowledged.
@@ -81,7 +82,7 @@ absl::Status Client::WatchCalibrationJob(
     const std::string& name, const std::function<bool(const v1::CalibrationJob&)>& on_job,
     const std::function<bool()>& is_cancelled) const {
   ClientContext context;
-  PrepareContext(context);
+  PrepareContext(context, impl_->options);
   v1::WatchCalibrationJobRequest request;
   request.set_name(name);
   const auto stream = impl_->calibrations->WatchCalibrationJob(&context, request);
@@ -98,7 +99,7 @@ absl::Status Client::WatchCalibrationJob(
 }
 
 std::unique_ptr<AppendStream> Client::OpenAppendStream() const {
-  return std::make_unique<GrpcAppendStream>(*impl_->sessions, impl_->address);
+  return std::make_unique<GrpcAppendStream>(*impl_->sessions, impl_->address, impl_->options);
 }
 
 }  // namespace truepose::client

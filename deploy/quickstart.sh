@@ -2,10 +2,10 @@
 # deploy/quickstart.sh [--directory DIR] [--data DIR] [--keep]
 #
 # On a fresh Debian 12, as root or with sudo: installs what deploy/packages.txt lists, builds, starts a server on an
-# embedded database, and takes one robot from its measured session to corrected targets. May be run again: it goes on
+# embedded database, makes a token for you, and takes one robot from its measured session to corrected targets. May be run again: it goes on
 # in the same database, with a new session and a new calibration.
 #
-#   --directory DIR  where database, log and results go (default ./truepose-quickstart)
+#   --directory DIR  where database, token, log and results go (default ./truepose-quickstart)
 #   --data DIR       folder that has ipa_ur10/series_C.csv (default ../shared/data beside the tree); without that file
 #                    the measuring robot is simulated instead
 #   --keep           leave the server running and say how to stop it
@@ -79,7 +79,27 @@ start_server() {
   fi
   TRUEPOSE_SERVER="$(cat "$directory/address")"
   export TRUEPOSE_SERVER
+  get_token
   echo "Listening on $TRUEPOSE_SERVER, database $directory/truepose.db"
+}
+
+# The first admin of a database is who runs this script; the token stays beside the database for the next time.
+get_token() {
+  local token="$directory/token"
+  if [ ! -s "$token" ]; then
+    [ -r "$directory/truepose.db.bootstrap" ] || fail "the database has an admin, and $token with the token is gone; \
+start the server with --bootstrap to make another (docs/operations.md)"
+    truepose admin bootstrap "$directory/truepose.db.bootstrap" --principal "$(principal)" --output "$token" | without_next
+  fi
+  TRUEPOSE_TOKEN="$(cat "$token")"
+  export TRUEPOSE_TOKEN
+}
+
+# The user's name as far as a principal may have it.
+principal() {
+  local name
+  name="$(id -un | tr '[:upper:]' '[:lower:]' | tr -cd 'a-z0-9._@-' | sed 's/^[^a-z0-9]*//' | cut -c1-63)"
+  echo "${name:-admin}"
 }
 
 wait_until_ready() {
@@ -132,6 +152,7 @@ go_on() {
   cat <<TEXT
 Corrected targets     $directory/corrected.csv
 The calibration       $directory/calibration.json
+Your token            $directory/token: --token-file, or copy it to ~/.config/truepose/token
 Your own robot        copy $robot_file, describe the robot in it (docs/formats.md), then
                         $binaries/client/cli/truepose robot add FILE
                         $binaries/client/cli/truepose session import SESSION.csv --robot NAME

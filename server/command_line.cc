@@ -17,6 +17,12 @@ void AddOptions(CLI::App& app, double& drain_seconds, CommandLine* out) {
       ->capture_default_str();
   app.add_option("--database", server.database, "database file, made when it is not there")
       ->capture_default_str();
+  app.add_flag("--dev-open", server.dev_open,
+               "ask for no tokens: everybody who can connect is local-dev and may do everything");
+  app.add_flag("--bootstrap", server.bootstrap,
+               "write a new secret for a first admin, when the tokens of all admins were lost");
+  app.add_option("--time-zone", server.time_zone,
+                 "IANA name of the plant's zone, such as Europe/Berlin; default: the system's");
   app.add_option("--workers", server.workers, "calibration jobs that run at once")
       ->capture_default_str();
   app.add_option("--drain", drain_seconds, "seconds that calls under way get at the end")

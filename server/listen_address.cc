@@ -125,7 +125,7 @@ absl::StatusOr<ListenAddress> ParseListenAddress(const std::string& text) {
   if (host.front() == '[' && host.back() == ']') host = host.substr(1, host.size() - 2);
   if (!IsLoopback(host)) {
     return FaultStatus("listen", absl::StrCat("'", text, "', which others can reach"),
-                       absl::StrCat(kExpected, ": calls are neither encrypted nor authenticated"));
+                       absl::StrCat(kExpected, ": calls are not encrypted, their tokens neither"));
   }
   return ListenAddress{.host = host, .port = port};
 }

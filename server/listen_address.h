@@ -11,11 +11,12 @@ namespace truepose::server {
 struct ListenAddress {
   std::string unix_path = {};  // set, or
   std::string host = {};       // a loopback address without brackets
-  int port = 0;           // 0: any that is free
+  int port = 0;                // 0: any that is free
 };
 
 // "unix:path", "127.0.0.1:7878", "localhost:0", "[::1]:7878".
-// Calls are not encrypted and carry no identity yet, so only a unix socket and loopback are taken.
+// Calls are not encrypted yet, and a token that others can read is theirs, so only a unix socket
+// and loopback are taken.
 // @returns kInvalidArgument with a fault of the field `listen`.
 absl::StatusOr<ListenAddress> ParseListenAddress(const std::string& text);
 

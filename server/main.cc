@@ -53,6 +53,14 @@ int Fail(ExitCode code, const std::string& message) {
   return code;
 }
 
+void SayWhoMayCall(const ServerOptions& options, const Server& server) {
+  if (options.dev_open)
+    rpc::LogWarning("--dev-open: no tokens, everybody who can connect is local-dev and an admin");
+  const std::string file = server.bootstrap_file();
+  if (!file.empty())
+    rpc::LogWarning("no admin yet: `truepose admin bootstrap " + file + " --principal NAME`");
+}
+
 int Run(const CommandLine& line) {
   const sigset_t signals = BlockStopSignals();
   // One that a killed server left behind would send clients to where nobody is.
@@ -64,6 +72,7 @@ int Run(const CommandLine& line) {
     return Fail(kExitUsage, "ready-file: '" + line.ready_file + "' can't be written");
   }
   rpc::LogInfo("listening at " + (*server)->address() + ", database " + line.server.database);
+  SayWhoMayCall(line.server, **server);
   int signal_number = 0;
   sigwait(&signals, &signal_number);
   rpc::LogInfo("stopping: calls under way are finished, running jobs go back to the queue");

@@ -33,6 +33,9 @@ class Server {
   const std::string& address() const;
   std::shared_ptr<grpc::Channel> InProcessChannel(const grpc::ChannelArguments& arguments);
 
+  // The file with the one-time secret for the first admin; "" when none is due.
+  std::string bootstrap_file() const;
+
   // Drains and closes, at most `drain` longer than the job that is asked to end takes. May be
   // called again.
   void Stop();

@@ -12,7 +12,10 @@ struct ServerOptions {
   std::string listen =
       "127.0.0.1:7878";  // loopback host:port (port 0: any that is free), or unix:path
   std::string database = "truepose.db";  // a file, or ":memory:"
-  int workers = 1;                       // calibration jobs that run at once, 1 to 64
+  bool dev_open = false;    // asks for no tokens: everybody is the principal local-dev and an admin
+  bool bootstrap = false;   // a new secret for a first admin although there is one: all were lost
+  std::string time_zone;    // IANA name of the plant's, such as Europe/Berlin; "" = the system's
+  int workers = 1;          // calibration jobs that run at once, 1 to 64
   int handler_threads = 8;  // calls that are handled at once; they mostly wait for the store
   int compute_threads = 2;  // evaluations and compensations at once
   absl::Duration drain =

@@ -31,6 +31,7 @@ struct CommandLine::Impl {
   // Read here and not by the parser, which sets the variable anew for every command that has the
   // option, after it has read the command line.
   std::string server = ServerByEnvironment();
+  std::string token_file;
 };
 
 namespace {
@@ -108,6 +109,9 @@ void Command::Run(Reach reach, Action action) const {
             "Where trueposed listens: host:port or unix:/path; TRUEPOSE_SERVER says it, too")
         ->type_name("ADDRESS")
         ->capture_default_str();
+    app_->add_option("--token-file", impl.token_file,
+                     "File with your token; default: TRUEPOSE_TOKEN, ~/.config/truepose/token")
+        ->type_name("FILE");
   }
   impl.actions[app_] = std::move(action);
 }
@@ -153,7 +157,8 @@ absl::Status CommandLine::RunSelected(const Console& console) {
     return UsageError(absl::StrCat("a command is missing after `", FullName(selected), "`\nTry `",
                                    FullName(selected), " --help`."));
   }
-  return action->second({console, impl_->json, impl_->server, selected->remaining()});
+  return action->second(
+      {console, impl_->json, impl_->server, selected->remaining(), impl_->token_file});
 }
 
 absl::Status CommandLine::Run(const std::vector<std::string>& arguments, const Console& console) {

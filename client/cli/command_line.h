@@ -22,6 +22,7 @@ struct Invocation {
   bool json = false;
   std::string server;                  // an address
   std::vector<std::string> passed_on;  // of a command that hands its arguments to another program
+  std::string token_file = {};         // --token-file; "" = where client/token_file.h looks
 };
 
 using Action = std::function<absl::Status(const Invocation&)>;
@@ -47,7 +48,8 @@ class Command {
   // Text below the options.
   const Command& Footer(const std::string& text) const;
 
-  // What the command does. It takes --json from here on; a remote one takes --server as well.
+  // What the command does. It takes --json from here on; a remote one takes --server and
+  // --token-file as well.
   enum class Reach { kLocal, kRemote };
   void Run(Reach reach, Action action) const;
   // Hands everything after its name to `action` as Invocation::passed_on, --help included.

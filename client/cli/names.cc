@@ -39,6 +39,8 @@ std::string SessionName(absl::string_view typed) { return WithCollection("sessio
 
 std::string JobName(absl::string_view typed) { return WithCollection("jobs/", typed); }
 
+std::string TokenName(absl::string_view typed) { return WithCollection("tokens/", typed); }
+
 absl::StatusOr<std::string> CalibrationName(absl::string_view typed) {
   if (IsCalibrationName(typed)) return std::string(typed);
   const std::vector<absl::string_view> parts = absl::StrSplit(typed, '#');

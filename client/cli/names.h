@@ -14,6 +14,8 @@ std::string RobotName(absl::string_view typed);
 std::string SessionName(absl::string_view typed);
 // A UUID or "jobs/UUID" -> "jobs/UUID".
 std::string JobName(absl::string_view typed);
+// A UUID or "tokens/UUID" -> "tokens/UUID".
+std::string TokenName(absl::string_view typed);
 // "ur10#1" or "robots/ur10/calibrations/1" -> the latter. kInvalidArgument with a fault of
 // `--calibration` for anything else.
 absl::StatusOr<std::string> CalibrationName(absl::string_view typed);

@@ -90,6 +90,9 @@ int ExitCodeOf(const absl::Status& status) {
       return client::kExitUnavailable;
     case absl::StatusCode::kDataLoss:
       return client::kExitDatabase;
+    case absl::StatusCode::kUnauthenticated:
+    case absl::StatusCode::kPermissionDenied:
+      return client::kExitNotAllowed;
     case absl::StatusCode::kNotFound:
       return client::kExitNotFound;
     default:

@@ -14,6 +14,7 @@
 namespace truepose::cli {
 
 // Runs `call` with a client; a server that can't be reached gets the hint how to start or name one,
+// one that asks for a token where it is looked for,
 // a name that is unknown gets `not_found_hint`, such as "`truepose robot list` shows the robots".
 absl::Status WithServer(const Invocation& invocation, absl::string_view not_found_hint,
                         const std::function<absl::Status(const client::Client&)>& call);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr char kFooter[] =
     R"(Every command has --help with examples. A first round with a robot:
-  truepose serve &
+  truepose serve --dev-open &
   truepose robot add ur10.yaml
   truepose session import series_C.csv --robot ur10
   truepose calibrate --robot ur10 --session UUID --split even-odd
@@ -29,7 +29,8 @@ Exit codes:
   3  the input has faults: a file, the value of an option, joint limits with --strict-limits
   4  the server is unreachable, or the address to serve at is in use
   5  the database can't be used
-  6  not found: no resource has that name)";
+  6  not found: no resource has that name
+  7  not allowed: no token, one that holds no longer, or one that may not)";
 
 bool AsksForJson(const std::vector<std::string>& arguments) {
   return std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();

@@ -12,16 +12,16 @@ bool IsOurFault(const absl::Status& status) {
   return absl::IsInternal(status) || absl::IsDataLoss(status) || absl::IsUnknown(status);
 }
 
-size_t ErrorBytesOf(const grpc::CallbackServerContext& context) {
-  const auto found = context.client_metadata().find(kErrorBytesKey);
-  if (found == context.client_metadata().end()) return kDefaultErrorBytes;
-  return ErrorBytes({found->second.data(), found->second.size()});
-}
-
 }  // namespace
 
+std::string_view MetadataOf(const grpc::CallbackServerContext& context, const char* key) {
+  const auto found = context.client_metadata().find(key);
+  if (found == context.client_metadata().end()) return {};
+  return {found->second.data(), found->second.size()};
+}
+
 Call MakeCall(const char* method, const grpc::CallbackServerContext& context) {
-  return {method, ErrorBytesOf(context), absl::Now()};
+  return {method, ErrorBytes(MetadataOf(context, kErrorBytesKey)), absl::Now()};
 }
 
 grpc::Status Conclude(const Call& call, const absl::Status& status) {

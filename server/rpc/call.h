@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 #include "absl/status/status.h"
 #include "absl/time/time.h"
@@ -19,6 +20,10 @@ struct Call {
 
 // Reads the metadata of a call that begins now.
 Call MakeCall(const char* method, const grpc::CallbackServerContext& context);
+
+// The first value of the call's metadata `key`, "" when there is none. It lives as long as the
+// context.
+std::string_view MetadataOf(const grpc::CallbackServerContext& context, const char* key);
 
 // Turns the call's status into gRPC's, and logs it: what is the server's own fault as an error, the
 // rest for debugging.

@@ -24,6 +24,7 @@ void SetLogLevel(const std::string& level) {
 
 void LogDebug(const std::string& message) { Logger().debug(message); }
 void LogInfo(const std::string& message) { Logger().info(message); }
+void LogWarning(const std::string& message) { Logger().warn(message); }
 void LogError(const std::string& message) { Logger().error(message); }
 
 }  // namespace truepose::rpc

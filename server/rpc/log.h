@@ -9,6 +9,7 @@ namespace truepose::rpc {
 void SetLogLevel(const std::string& level);
 void LogDebug(const std::string& message);
 void LogInfo(const std::string& message);
+void LogWarning(const std::string& message);
 void LogError(const std::string& message);
 
 }  // namespace truepose::rpc

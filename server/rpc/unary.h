@@ -29,4 +29,13 @@ grpc::ServerUnaryReactor* RunUnary(const char* method, grpc::CallbackServerConte
   return reactor;
 }
 
+// Finishes a call before any handler.
+inline grpc::ServerUnaryReactor* RefuseUnary(const char* method,
+                                             grpc::CallbackServerContext* context,
+                                             const absl::Status& status) {
+  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+  reactor->Finish(Conclude(MakeCall(method, *context), status));
+  return reactor;
+}
+
 }  // namespace truepose::rpc

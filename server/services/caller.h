@@ -1,15 +1,10 @@
-// Who calls.
+// Who calls, as handlers know it.
 #pragma once
 
-#include <string>
+#include "server/auth/caller.h"
 
 namespace truepose::services {
 
-struct Caller {
-  std::string principal = "local-dev";
-  bool is_machine = false;
-  bool is_admin = true;
-  bool is_local_dev = true;  // a server that is open to everybody (--dev-open)
-};
+using auth::Caller;
 
 }  // namespace truepose::services

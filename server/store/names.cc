@@ -72,6 +72,8 @@ std::string SessionName(std::string_view session_id) {
 
 std::string JobName(std::string_view job_id) { return "jobs/" + std::string(job_id); }
 
+std::string TokenName(std::string_view token_id) { return "tokens/" + std::string(token_id); }
+
 std::string NominalName(std::string_view robot_id, int64_t number) {
   return absl::StrCat(RobotName(robot_id), "/nominals/", number);
 }
@@ -90,6 +92,10 @@ absl::StatusOr<std::string> ParseSessionName(std::string_view name, std::string_
 
 absl::StatusOr<std::string> ParseJobName(std::string_view name, std::string_view field) {
   return ParseSimple(name, "jobs", IsUuid, "jobs/{uuid}", field);
+}
+
+absl::StatusOr<std::string> ParseTokenName(std::string_view name, std::string_view field) {
+  return ParseSimple(name, "tokens", IsUuid, "tokens/{uuid}", field);
 }
 
 absl::StatusOr<NumberedName> ParseNominalName(std::string_view name, std::string_view field) {

@@ -1,6 +1,6 @@
 // Names of resources as the store keys them.
 //   robots/{robot}  robots/{robot}/nominals/{number}  robots/{robot}/calibrations/{number}
-//   sessions/{id}  jobs/{id}
+//   sessions/{id}  jobs/{id}  tokens/{id}
 // Parsing checks the form only; @returns kInvalidArgument with a fault whose field is `field`.
 #pragma once
 
@@ -22,6 +22,7 @@ struct NumberedName {
 std::string RobotName(std::string_view robot_id);
 std::string SessionName(std::string_view session_id);
 std::string JobName(std::string_view job_id);
+std::string TokenName(std::string_view token_id);
 std::string NominalName(std::string_view robot_id, int64_t number);
 std::string CalibrationName(std::string_view robot_id, int64_t number);
 
@@ -29,13 +30,14 @@ absl::StatusOr<std::string> ParseRobotName(std::string_view name, std::string_vi
 absl::StatusOr<std::string> ParseSessionName(std::string_view name,
                                              std::string_view field = "name");
 absl::StatusOr<std::string> ParseJobName(std::string_view name, std::string_view field = "name");
+absl::StatusOr<std::string> ParseTokenName(std::string_view name, std::string_view field = "name");
 absl::StatusOr<NumberedName> ParseNominalName(std::string_view name,
                                               std::string_view field = "name");
 absl::StatusOr<NumberedName> ParseCalibrationName(std::string_view name,
                                                   std::string_view field = "name");
 
 // Faults of identifiers that a client chooses: robots [a-z0-9][a-z0-9-]{0,62}; sessions and jobs a
-// lower-case UUID.
+// lower-case UUID. Tokens have one too.
 absl::Status CheckRobotId(std::string_view robot_id, std::string_view field);
 absl::Status CheckUuid(std::string_view id, std::string_view field);
 

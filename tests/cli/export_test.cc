@@ -203,6 +203,7 @@ TEST_F(ExportTest, ATipIsAskedForAndTaken) {
 // Would catch an export that depends on where the calibration is.
 TEST_F(ExportTest, AServersCalibrationGivesTheSameFiles) {
   server::ServerOptions options;
+  options.dev_open = true;
   options.listen = absl::StrCat("unix:", folder_.Path("socket"));
   options.database = ":memory:";
   const auto server = server::Server::Start(options, server::CalibrationRunner());

@@ -58,6 +58,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Measured, ServerGivesTheSameReport) {
   const TempFolder folder;
   server::ServerOptions options;
+  options.dev_open = true;
   options.listen = absl::StrCat("unix:", folder.Path("socket"));
   options.database = folder.Path("truepose.db");
   const auto server = server::Server::Start(options, server::CalibrationRunner());

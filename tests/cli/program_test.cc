@@ -73,8 +73,8 @@ TEST_F(ProgramTest, AFullStandardOutputIsAFailure) {
 // twice.
 TEST_F(ProgramTest, ServeBecomesTheServer) {
   const std::string address = absl::StrCat("unix:", folder_.Path("socket"));
-  const std::vector<std::string> serve = {"serve", "--listen", address, "--ready-file",
-                                          folder_.Path("ready")};
+  const std::vector<std::string> serve = {"serve", "--dev-open",   "--listen",
+                                          address, "--ready-file", folder_.Path("ready")};
   const auto with = [&](const std::string& database) {
     std::vector<std::string> line = Line(serve);
     line.insert(line.end(), {"--database", folder_.Path(database)});
@@ -99,6 +99,7 @@ class WaitingServer {
  public:
   explicit WaitingServer(const std::string& socket) {
     server::ServerOptions options;
+    options.dev_open = true;
     options.listen = absl::StrCat("unix:", socket);
     options.database = ":memory:";
     auto started = server::Server::Start(options, [this](const auto& input, const auto& hooks) {

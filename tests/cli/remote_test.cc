@@ -24,6 +24,7 @@ class RemoteTest : public ::testing::Test {
  protected:
   void SetUp() override {
     server::ServerOptions options;
+    options.dev_open = true;
     options.listen = absl::StrCat("unix:", folder_.Path("socket"));
     options.database = ":memory:";
     auto started = server::Server::Start(options, server::CalibrationRunner());

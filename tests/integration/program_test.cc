@@ -66,6 +66,56 @@ TEST_F(ProgramTest, AReadyFileThatWasLeftBehindIsRemoved) {
   EXPECT_FALSE(std::filesystem::exists(left));
 }
 
+// Everything below a folder as one text.
+std::string AllBytes(const std::filesystem::path& folder) {
+  std::string all;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file()) continue;
+    std::ifstream file(entry.path(), std::ios::binary);
+    all.append(std::istreambuf_iterator<char>(file), {});
+  }
+  return all;
+}
+
+// Would catch a secret in the log or in any file of the database, a bootstrap file that others can
+// read, and a server that says nothing of how its first admin comes.
+TEST_F(ProgramTest, SecretsAreToldOnceAndKeptNowhere) {
+  ServerProcess process(folder_, {"--database", Database(), "--log-level", "debug"},
+                        ServerProcess::Access::kTokens);
+  ASSERT_TRUE(process.WaitUntilReady()) << process.Output();
+  const std::string file = Database() + ".bootstrap";
+  EXPECT_THAT(process.Output(), HasSubstr("truepose admin bootstrap " + file));
+  v1::BootstrapRequest request;
+  std::ifstream(file) >> *request.mutable_secret();
+  request.set_principal("anna");
+  const auto made = client::Client::Connect(process.address())->Bootstrap(request);
+  ASSERT_THAT(made, IsOk());
+  const auto client = client::Client::Connect(process.address(), {.token = made->secret()});
+  EXPECT_THAT(client->ListRobots({}), IsOk());
+  EXPECT_THAT(
+      client::Client::Connect(process.address(), {.token = made->secret() + "x"})->ListRobots({}),
+      testing::HasCode(absl::StatusCode::kUnauthenticated));
+  process.Signal(SIGTERM);
+  EXPECT_EQ(process.Wait(), server::kExitOk);
+  const std::string all = AllBytes(folder_.path());  // the log among it
+  EXPECT_THAT(all, HasSubstr("anna"));
+  EXPECT_EQ(all.find(made->secret()), std::string::npos);
+  EXPECT_EQ(all.find(request.secret()), std::string::npos);
+}
+
+// Would catch a server that is open to everybody and doesn't say so.
+TEST_F(ProgramTest, OpenToEverybodyItSaysSo) {
+  ServerProcess process(folder_, {"--database", Database(), "--time-zone", "Asia/Tokyo"});
+  ASSERT_TRUE(process.WaitUntilReady()) << process.Output();
+  EXPECT_THAT(process.Output(), HasSubstr("--dev-open"));
+  const auto status = client::Client::Connect(process.address())->GetServerStatus({});
+  ASSERT_THAT(status, IsOk());
+  EXPECT_TRUE(status->dev_open());
+  EXPECT_EQ(status->principal(), "local-dev");
+  EXPECT_EQ(status->time_zone(), "Asia/Tokyo");
+  EXPECT_GT(status->database_bytes(), 0);
+}
+
 TEST_F(ProgramTest, HelpAndVersionAreNoFailure) {
   ServerProcess help(folder_, {"--help"});
   EXPECT_EQ(help.Wait(), server::kExitOk);
@@ -76,11 +126,9 @@ TEST_F(ProgramTest, HelpAndVersionAreNoFailure) {
 
 // Would catch a mistyped option that is taken for a default.
 TEST_F(ProgramTest, UsageIsExitCode2) {
-  const std::vector<std::vector<std::string>> wrong = {{"--databse", "t.db"},
-                                                       {"--workers", "many"},
-                                                       {"--workers", "0"},
-                                                       {"--listen", "0.0.0.0:7878"},
-                                                       {"--log-level", "loud"}};
+  const std::vector<std::vector<std::string>> wrong = {
+      {"--databse", "t.db"},        {"--workers", "many"},           {"--workers", "0"},
+      {"--listen", "0.0.0.0:7878"}, {"--time-zone", "Nowhere/Land"}, {"--log-level", "loud"}};
   for (const auto& arguments : wrong) {
     ServerProcess process(folder_, arguments);
     EXPECT_EQ(process.Wait(), server::kExitUsage) << arguments[0] << " " << arguments[1];

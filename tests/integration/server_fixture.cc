@@ -51,6 +51,7 @@ v1::CreateCalibrationJobRequest JobRequest(const std::string& job_id, const std:
 ServerFixture::ServerFixture() {
   options_.listen = absl::StrCat("unix:", folder_.File("s.sock"));
   options_.database = folder_.File("t.db");
+  options_.dev_open = true;  // tests of tokens: authenticated_fixture.h
   Restart();
 }
 

@@ -27,13 +27,15 @@ namespace {
 
 }  // namespace
 
-ServerProcess::ServerProcess(const TempDir& folder, const std::vector<std::string>& arguments)
+ServerProcess::ServerProcess(const TempDir& folder, const std::vector<std::string>& arguments,
+                             Access access)
     : ready_file_(folder.File("ready")),
       output_file_(folder.File("output")),
       address_("unix:" + folder.File("s.sock")) {
   std::filesystem::remove(ready_file_);
   // The test's own arguments come last, so that they win.
   std::vector<std::string> words = {TRUEPOSED, "--listen", address_, "--ready-file", ready_file_};
+  if (access == Access::kOpenToAll) words.push_back("--dev-open");
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());

@@ -12,8 +12,12 @@ namespace truepose::testing {
 
 class ServerProcess {
  public:
+  // kOpenToAll: with --dev-open.
+  enum class Access { kOpenToAll, kTokens };
+
   // Starts trueposed with `arguments`, --listen and --ready-file in `folder`, without waiting.
-  ServerProcess(const TempDir& folder, const std::vector<std::string>& arguments);
+  ServerProcess(const TempDir& folder, const std::vector<std::string>& arguments,
+                Access access = Access::kOpenToAll);
   // Kill().
   ~ServerProcess();
   ServerProcess(const ServerProcess&) = delete;

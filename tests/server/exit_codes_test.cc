@@ -15,6 +15,7 @@ TEST(ExitCodesTest, ServerAndClientAgree) {
   EXPECT_EQ(int{server::kExitUnavailable}, int{client::kExitUnavailable});
   EXPECT_EQ(int{server::kExitDatabase}, int{client::kExitDatabase});
   EXPECT_EQ(int{server::kExitNotFound}, int{client::kExitNotFound});
+  EXPECT_EQ(int{server::kExitNotAllowed}, int{client::kExitNotAllowed});
 }
 
 }  // namespace

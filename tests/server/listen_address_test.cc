@@ -36,7 +36,7 @@ TEST(ListenAddressTest, AddressesThatOthersReachAreRefusedWithTheReason) {
     const auto refused = ParseListenAddress(address);
     EXPECT_THAT(refused, HasFaultsAt(std::vector<std::string>{"listen"})) << address;
     EXPECT_THAT(std::string(refused.status().message()),
-                ::testing::HasSubstr("neither encrypted nor authenticated"));
+                ::testing::HasSubstr("calls are not encrypted"));
   }
 }
 

@@ -24,5 +24,20 @@ TEST(ServerOptionsTest, EveryFaultIsNamed) {
                                                    "handler_threads", "compute_threads", "drain"}));
 }
 
+// Would catch tokens that go with the process, and two options of which one is lost.
+TEST(ServerOptionsTest, WhoMayCallIsDecidedWithoutContradiction) {
+  ServerOptions options;
+  options.database = ":memory:";
+  EXPECT_THAT(options.Validate(), HasFaultsAt(std::vector<std::string>{"database"}));
+  options.dev_open = true;
+  EXPECT_THAT(options.Validate(), IsOk());
+  options.bootstrap = true;
+  options.time_zone = "Nowhere/Land";
+  EXPECT_THAT(options.Validate(), HasFaultsAt(std::vector<std::string>{"bootstrap", "time_zone"}));
+  options.bootstrap = false;
+  options.time_zone = "Europe/Berlin";
+  EXPECT_THAT(options.Validate(), IsOk());
+}
+
 }  // namespace
 }  // namespace truepose::server

@@ -32,6 +32,7 @@ class ServerTest : public ::testing::Test {
     ServerOptions options;
     options.listen = absl::StrCat("unix:", folder_.File("s.sock"));
     options.database = folder_.File("t.db");
+    options.dev_open = true;
     return options;
   }
 
@@ -69,6 +70,17 @@ TEST_F(ServerTest, ServesAtAUnixSocketAndIsHealthy) {
   EXPECT_EQ((*server)->address(), Options().listen);
   EXPECT_THAT(ClientOf(**server).CreateRobot(testing::RobotRequest("ur10")), IsOk());
   EXPECT_EQ(HealthOf(**server), 1);  // SERVING
+}
+
+// Would catch a server that asks nobody by default, and one whose health needs a token.
+TEST_F(ServerTest, WithoutDevOpenTokensAreAskedForAndHealthIsOpen) {
+  ServerOptions options = Options();
+  options.dev_open = false;
+  const auto server = Server::Start(options, NoRunner);
+  ASSERT_THAT(server, IsOk());
+  EXPECT_THAT(ClientOf(**server).ListRobots({}), HasCode(absl::StatusCode::kUnauthenticated));
+  EXPECT_EQ(HealthOf(**server), 1);  // SERVING
+  EXPECT_EQ((*server)->bootstrap_file(), options.database + ".bootstrap");
 }
 
 // Would catch a port that can't be left to the system, or is not told.

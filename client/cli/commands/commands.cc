@@ -5,6 +5,7 @@ namespace truepose::cli {
 // In the order in which a plant engineer meets them, which is the order of --help.
 void AddAllCommands(const Command& root) {
   AddServe(root);
+  AddStatus(root);
   AddRobot(root);
   AddSession(root);
   AddCalibrate(root);
@@ -15,6 +16,8 @@ void AddAllCommands(const Command& root) {
   AddSimulate(root);
   AddModel(root);
   AddReproduce(root);
+  AddAdmin(root);
+  AddToken(root);
   AddVersion(root);
 }
 

@@ -8,6 +8,9 @@ namespace truepose::cli {
 void AddAllCommands(const Command& root);
 
 void AddServe(const Command& root);
+void AddStatus(const Command& root);
+void AddAdmin(const Command& root);
+void AddToken(const Command& root);
 void AddRobot(const Command& root);
 void AddRobotExport(const Command& robot);
 void AddSession(const Command& root);

@@ -19,7 +19,7 @@ constexpr char kHelp[] =
     R"(Runs the server until Ctrl-C. All options are those of trueposed, which this command becomes.
 
 Examples:
-  truepose serve
+  truepose serve --dev-open
   truepose serve --database /var/lib/truepose/plant.db --listen 127.0.0.1:7900
   truepose serve --listen unix:/run/truepose.sock
 

@@ -1,7 +1,7 @@
 // What the bindings share.
 #pragma once
 
-#include "server/rpc/unary.h"
+#include "server/services/bindings/admission.h"
 #include "server/services/bindings/bindings.h"
 
 namespace truepose::services {
@@ -18,15 +18,20 @@ std::unique_ptr<grpc::Service> BindCalibrationService(const CallContext& call,
 
 std::unique_ptr<grpc::Service> BindWatchService(const CallContext& call, const Executors& executors,
                                                 rpc::Drain& drain, const WatchSettings& settings);
+std::unique_ptr<grpc::Service> BindAdminService(const CallContext& call,
+                                                const Executors& executors);
 
 }  // namespace truepose::services
 
-// Overrides an RPC of the generated class by the handler of the same name, run on `executor`.
+// Overrides an RPC of the generated class by the handler of the same name, run on `executor` for
+// who was admitted.
 #define TRUEPOSE_BIND(Method, Request, Response, executor)                                        \
   grpc::ServerUnaryReactor* Method(grpc::CallbackServerContext* context,                          \
                                    const v1::Request* request, v1::Response* response) override { \
-    return rpc::RunUnary(#Method, context, executor, response,                                    \
-                         [this, request] { return services::Method(call_, *request); });          \
+    static const auto access = auth::AccessTo(#Method);                                           \
+    return RunAdmitted(                                                                           \
+        call_, access, #Method, context, executor, response,                                      \
+        [request](const CallContext& call) { return services::Method(call, *request); });         \
   }
 
 // The same for a standard method of a kind of resource: `function` is one of
@@ -35,13 +40,14 @@ std::unique_ptr<grpc::Service> BindWatchService(const CallContext& call, const E
   grpc::ServerUnaryReactor* Method(grpc::CallbackServerContext* context,                       \
                                    const v1::Method##Request* request, v1::Response* response) \
       override {                                                                               \
-    return rpc::RunUnary(#Method, context, handlers_, response,                                \
-                         [this, request]() -> absl::StatusOr<v1::Response> {                   \
-                           v1::Response made;                                                  \
-                           const absl::Status status = function(call_, *request, made);        \
-                           if (!status.ok()) return status;                                    \
-                           return made;                                                        \
-                         });                                                                   \
+    static const auto access = auth::AccessTo(#Method);                                        \
+    return RunAdmitted(call_, access, #Method, context, handlers_, response,                   \
+                       [request](const CallContext& call) -> absl::StatusOr<v1::Response> {    \
+                         v1::Response made;                                                    \
+                         const absl::Status status = function(call, *request, made);           \
+                         if (!status.ok()) return status;                                      \
+                         return made;                                                          \
+                       });                                                                     \
   }
 
 // All six of one kind.

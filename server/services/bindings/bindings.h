@@ -29,7 +29,7 @@ struct WatchSettings {
       absl::Seconds(15);  // a bookmark comes after this time without anything else
 };
 
-// All services of a server. What is referred to outlives them.
+// All services of a server. What is referred to outlives them; `call` has an administration.
 std::vector<std::unique_ptr<grpc::Service>> BindServices(const CallContext& call,
                                                          const Executors& executors,
                                                          rpc::Drain& drain,

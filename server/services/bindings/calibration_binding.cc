@@ -17,7 +17,12 @@ void StartWatch(const CallContext& call, const v1::WatchCalibrationJobRequest& r
   auto subscription = rpc::Guarded([&] {
     return WatchCalibrationJob(
         call, request,
-        {.on_job = [stream](const v1::CalibrationJob& job) { stream->Push(job); },
+        {.on_job =
+             [stream, call](const v1::CalibrationJob& job) {
+               const absl::Status admitted = Recheck(call);
+               if (!admitted.ok()) return stream->End(admitted);
+               stream->Push(job);
+             },
          .on_done = [stream](const absl::Status& status) { stream->End(status); }});
   });
   if (!subscription.ok()) return stream->End(subscription.status());
@@ -52,9 +57,15 @@ class CalibrationBinding final : public v1::CalibrationService::CallbackService 
       const v1::WatchCalibrationJobRequest* request) override {
     const auto stream = JobStream::Make(rpc::MakeCall("WatchCalibrationJob", *context));
     drain_.Add(stream);
+    static const auto access = auth::AccessTo("WatchCalibrationJob");
+    const absl::StatusOr<CallContext> call = Admit(call_, access, *context);
+    if (!call.ok()) {
+      stream->End(call.status());
+      return stream.get();
+    }
     // The request is copied: the stream may be finished, and the request gone, before this runs.
     const bool accepted = handlers_.Submit(
-        [this, stream, request = *request] { StartWatch(call_, request, stream); });
+        [call = *call, stream, request = *request] { StartWatch(call, request, stream); });
     if (!accepted) stream->End(rpc::TooBusy());
     return stream.get();
   }

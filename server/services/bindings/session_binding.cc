@@ -11,16 +11,31 @@ namespace {
 class Appender final
     : public rpc::AckHandler<v1::AppendReadingsRequest, v1::AppendReadingsResponse> {
  public:
-  explicit Appender(const CallContext& call) : stream_(call) {}
+  explicit Appender(const CallContext& call) : call_(call), stream_(call) {}
   bool IsQuick(const v1::AppendReadingsRequest& request) const override {
     return stream_.IsQuick(request);
   }
   void Begin(const v1::AppendReadingsRequest& request, Done done) override {
+    const absl::Status admitted = Recheck(call_);
+    if (!admitted.ok()) return done(admitted);
     stream_.Append(request, std::move(done));
   }
 
  private:
+  const CallContext call_;
   AppendStream stream_;
+};
+
+// The stream of who was not admitted: nothing of it gets anywhere.
+class Refuser final
+    : public rpc::AckHandler<v1::AppendReadingsRequest, v1::AppendReadingsResponse> {
+ public:
+  explicit Refuser(const absl::Status& status) : status_(status) {}
+  bool IsQuick(const v1::AppendReadingsRequest&) const override { return true; }
+  void Begin(const v1::AppendReadingsRequest&, Done done) override { done(status_); }
+
+ private:
+  const absl::Status status_;
 };
 
 class SessionBinding final : public v1::SessionService::CallbackService {
@@ -40,9 +55,15 @@ class SessionBinding final : public v1::SessionService::CallbackService {
   grpc::ServerBidiReactor<v1::AppendReadingsRequest, v1::AppendReadingsResponse>* AppendReadings(
       grpc::CallbackServerContext* context) override {
     using Stream = rpc::AckStream<v1::AppendReadingsRequest, v1::AppendReadingsResponse>;
-    const auto stream = Stream::Make(handlers_, rpc::MakeCall("AppendReadings", *context),
-                                     std::make_unique<Appender>(call_));
+    static const auto access = auth::AccessTo("AppendReadings");
+    const absl::StatusOr<CallContext> call = Admit(call_, access, *context);
+    std::unique_ptr<Stream::Handler> handler;
+    if (call.ok()) handler = std::make_unique<Appender>(*call);
+    if (!call.ok()) handler = std::make_unique<Refuser>(call.status());
+    const auto stream =
+        Stream::Make(handlers_, rpc::MakeCall("AppendReadings", *context), std::move(handler));
     drain_.Add(stream);
+    if (!call.ok()) stream->End(call.status());
     return stream.get();
   }
 

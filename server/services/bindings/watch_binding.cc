@@ -4,6 +4,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/base/error_metadata.h"
 #include "core/base/fault.h"
+#include "core/base/status_macros.h"
 #include "server/rpc/pull_stream.h"
 #include "server/services/bindings/binding.h"
 #include "server/store/message.h"
@@ -18,11 +19,13 @@ using watch::Wake;
 
 // A watcher and when it last heard something.
 struct Watcher {
+  CallContext call;
   std::unique_ptr<PlantWatch> watch;
   absl::Duration idle;
   absl::Time last = absl::Now();
 
   absl::StatusOr<std::optional<v1::WatchResponse>> Next() {
+    TRUEPOSE_RETURN_IF_ERROR(Recheck(call));
     absl::StatusOr<std::optional<v1::WatchResponse>> next = watch->Next();
     if (next.ok() && !next->has_value() && absl::Now() - last >= idle) next = watch->Bookmark();
     if (next.ok() && next->has_value()) last = absl::Now();
@@ -50,9 +53,15 @@ class WatchBinding final : public v1::WatchService::CallbackService {
     const auto stream =
         Stream::Make(context, rpc::MakeCall("Watch", *context), handlers_, settings_.stall);
     drain_.Add(stream);
+    static const auto access = auth::AccessTo("Watch");
+    const absl::StatusOr<CallContext> call = Admit(call_, access, *context);
+    if (!call.ok()) {
+      stream->End(call.status());
+      return stream.get();
+    }
     // The request is copied: the stream may be finished, and the request gone, before this runs.
-    const bool accepted =
-        handlers_.Submit([this, stream, copy = *request] { Begin(stream, copy); });
+    const bool accepted = handlers_.Submit(
+        [this, stream, call = *call, copy = *request] { Begin(stream, call, copy); });
     if (!accepted) stream->End(rpc::TooBusy());
     return stream.get();
   }
@@ -60,10 +69,11 @@ class WatchBinding final : public v1::WatchService::CallbackService {
  private:
   using Stream = rpc::PullStream<v1::WatchResponse>;
 
-  void Begin(const std::shared_ptr<Stream>& stream, const v1::WatchRequest& request) {
-    auto begun = rpc::Guarded([&] { return PlantWatch::Begin(call_.store, request); });
+  void Begin(const std::shared_ptr<Stream>& stream, const CallContext& call,
+             const v1::WatchRequest& request) {
+    auto begun = rpc::Guarded([&] { return PlantWatch::Begin(call.store, request); });
     if (!begun.ok()) return stream->End(begun.status());
-    auto watcher = std::make_shared<Watcher>(*std::move(begun), settings_.idle);
+    auto watcher = std::make_shared<Watcher>(call, *std::move(begun), settings_.idle);
     std::shared_ptr<void> listening =
         settings_.hub.Add([weak = std::weak_ptr<Stream>(stream)](Wake wake) {
           const std::shared_ptr<Stream> alive = weak.lock();

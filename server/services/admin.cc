@@ -1,0 +1,178 @@
+#include "server/services/admin.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "absl/strings/ascii.h"
+#include "absl/strings/str_cat.h"
+#include "core/base/fault.h"
+#include "core/base/status_macros.h"
+#include "server/auth/secret.h"
+#include "server/services/administration.h"
+#include "server/services/closures.h"
+#include "server/store/checksum.h"
+#include "server/store/message.h"
+#include "server/store/tally.h"
+#include "server/store/tokens.h"
+
+namespace truepose::services {
+namespace {
+
+using store::Snapshot;
+using store::Transaction;
+
+constexpr size_t kLongestPrincipal = 63;
+constexpr char kBootstrap[] = "bootstrap";
+
+bool IsLowerOrDigit(char c) { return absl::ascii_islower(c) || absl::ascii_isdigit(c); }
+
+bool IsPrincipal(const std::string& text) {
+  if (text.empty() || text.size() > kLongestPrincipal || !IsLowerOrDigit(text[0])) return false;
+  return std::all_of(text.begin(), text.end(), [](char c) {
+    return IsLowerOrDigit(c) || c == '.' || c == '_' || c == '@' || c == '-';
+  });
+}
+
+// What the server writes where nobody's token stood behind it.
+bool IsOurs(const std::string& principal) {
+  return principal == auth::kLocalDev || principal == "server" || principal == kBootstrap;
+}
+
+void CheckPrincipal(const std::string& principal, const std::string& field, FaultList& faults) {
+  if (!IsPrincipal(principal))
+    faults.Add(field, absl::StrCat("'", principal, "'"), "[a-z0-9][a-z0-9._@-]{0,62}");
+  if (IsOurs(principal))
+    faults.Add(field, absl::StrCat("'", principal, "', which is the server's own"), "another name");
+}
+
+absl::Status CheckContent(const v1::Token& token, absl::Time now) {
+  FaultList faults;
+  CheckPrincipal(token.principal(), "token.principal", faults);
+  if (token.kind() != v1::PERSON && token.kind() != v1::MACHINE)
+    faults.Add("token.kind", v1::PrincipalKind_Name(token.kind()), "PERSON or MACHINE");
+  if (token.admin() && token.kind() == v1::MACHINE)
+    faults.Add("token.admin", "an admin that is a MACHINE", "a PERSON");
+  if (token.has_expire_time() && absl::FromUnixSeconds(token.expire_time().seconds()) <= now)
+    faults.Add("token.expire_time", "a time that has passed", "one to come, or none");
+  return faults.ToStatus();
+}
+
+absl::Status CheckKind(Snapshot& snapshot, const v1::Token& token) {
+  TRUEPOSE_ASSIGN_OR_RETURN(const v1::PrincipalKind kind,
+                            store::KindOfPrincipal(snapshot, token.principal()));
+  if (kind == v1::PRINCIPAL_KIND_UNSPECIFIED || kind == token.kind()) return absl::OkStatus();
+  return FaultStatus("token.kind", v1::PrincipalKind_Name(token.kind()),
+                     absl::StrCat(v1::PrincipalKind_Name(kind), ", which ", token.principal(),
+                                  " is, or another principal"));
+}
+
+absl::Status CheckAsksForTokens(const CallContext& call) {
+  if (!call.administration->authenticator.is_open_to_all()) return absl::OkStatus();
+  return store::Refusal(absl::StatusCode::kFailedPrecondition, "server",
+                        "one that was started with --dev-open and asks for no tokens",
+                        "a start without it");
+}
+
+// The secret is made outside of the closure, which may run again.
+absl::StatusOr<v1::CreateTokenResponse> Make(const CallContext& call, const v1::Token& content) {
+  TRUEPOSE_ASSIGN_OR_RETURN(std::string secret, auth::NewSecret());
+  const std::string id = store::NewUuid(), hash = auth::HashOf(secret);
+  TRUEPOSE_ASSIGN_OR_RETURN(
+      const v1::Token token,
+      call.store.Write([&](Transaction& transaction) -> absl::StatusOr<v1::Token> {
+        TRUEPOSE_RETURN_IF_ERROR(CheckKind(transaction, content));
+        return store::InsertToken(transaction, id, hash, content);
+      }));
+  call.administration->authenticator.Learn({.token = token, .secret_sha256 = hash});
+  v1::CreateTokenResponse response;
+  *response.mutable_token() = token;
+  response.set_secret(std::move(secret));
+  return response;
+}
+
+void FillTally(const store::Tally& tally, v1::ServerStatus& status) {
+  status.set_robots(tally.robots);
+  status.set_sessions(tally.sessions);
+  status.set_readings(tally.readings);
+  status.set_pending_jobs(tally.pending_jobs);
+  status.set_running_jobs(tally.running_jobs);
+  status.set_open_requests(tally.open_requests);
+}
+
+void FillFacts(const Administration& administration, v1::ServerStatus& status) {
+  const ServerFacts& facts = administration.facts;
+  status.set_version(facts.version);
+  *status.mutable_start_time() = store::ToTimestamp(facts.start);
+  status.set_time_zone(facts.time_zone);
+  status.set_dev_open(administration.authenticator.is_open_to_all());
+  status.set_database_bytes(facts.database_bytes());
+  status.set_watchers(facts.watchers());
+}
+
+}  // namespace
+
+absl::StatusOr<v1::CreateTokenResponse> Bootstrap(const CallContext& call,
+                                                  const v1::BootstrapRequest& request) {
+  TRUEPOSE_RETURN_IF_ERROR(CheckAsksForTokens(call));
+  FaultList faults;
+  CheckPrincipal(request.principal(), "principal", faults);
+  TRUEPOSE_RETURN_IF_ERROR(faults.ToStatus());
+  v1::Token token;
+  token.set_principal(request.principal());
+  token.set_kind(v1::PERSON);
+  token.set_admin(true);
+  token.set_created_by(kBootstrap);
+  absl::StatusOr<v1::CreateTokenResponse> response;
+  TRUEPOSE_RETURN_IF_ERROR(call.administration->bootstrap.Use(request.secret(), [&] {
+    response = Make(call, token);
+    return response.status();
+  }));
+  return response;
+}
+
+absl::StatusOr<v1::CreateTokenResponse> CreateToken(const CallContext& call,
+                                                    const v1::CreateTokenRequest& request) {
+  TRUEPOSE_RETURN_IF_ERROR(CheckAsksForTokens(call));
+  TRUEPOSE_RETURN_IF_ERROR(CheckContent(request.token(), call.store.clock().Now()));
+  v1::Token token = request.token();
+  token.clear_revoke_time();
+  token.set_created_by(call.caller.principal);
+  return Make(call, token);
+}
+
+absl::StatusOr<v1::ListTokensResponse> ListTokens(const CallContext& call,
+                                                  const v1::ListTokensRequest& request) {
+  TRUEPOSE_ASSIGN_OR_RETURN(store::Page<v1::Token> page, call.store.Read([&](Snapshot& snapshot) {
+    return store::ListTokens(snapshot, PageOf(request));
+  }));
+  return ToResponse(std::move(page), &v1::ListTokensResponse::mutable_tokens);
+}
+
+absl::StatusOr<v1::Token> RevokeToken(const CallContext& call,
+                                      const v1::RevokeTokenRequest& request) {
+  TRUEPOSE_ASSIGN_OR_RETURN(v1::Token token, call.store.Write([&](Transaction& transaction) {
+    return store::RevokeToken(transaction, request.name());
+  }));
+  call.administration->authenticator.Learn({.token = token, .secret_sha256 = ""});
+  return token;
+}
+
+absl::StatusOr<v1::ServerStatus> GetServerStatus(const CallContext& call,
+                                                 const v1::GetServerStatusRequest&) {
+  TRUEPOSE_ASSIGN_OR_RETURN(const store::Tally tally, call.store.Read([](Snapshot& snapshot) {
+    return store::CountAll(snapshot);
+  }));
+  TRUEPOSE_ASSIGN_OR_RETURN(const int64_t revision, call.store.Revision());
+  v1::ServerStatus status;
+  FillTally(tally, status);
+  FillFacts(*call.administration, status);
+  status.set_epoch(call.store.epoch());
+  status.set_revision(revision);
+  *status.mutable_server_time() = store::ToTimestamp(call.store.clock().Now());
+  status.set_principal(call.caller.principal);
+  status.set_principal_kind(call.caller.is_machine ? v1::MACHINE : v1::PERSON);
+  return status;
+}
+
+}  // namespace truepose::services
