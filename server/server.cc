@@ -11,6 +11,7 @@
 #include "server/rpc/executor.h"
 #include "server/rpc/listener.h"
 #include "server/services/bindings/bindings.h"
+#include "server/services/recalibration_job.h"
 #include "server/services/release.h"
 #include "server/store/store.h"
 #include "server/watch/wake_hub.h"
@@ -31,6 +32,7 @@ jobs::EngineOptions ToEngineOptions(const ServerOptions& options) {
   jobs::EngineOptions engine;
   engine.workers = options.workers;
   engine.with_result = services::ReleaseWithinLimits;
+  engine.on_end = services::MoveRequestOfJob;
   return engine;
 }
 

@@ -27,6 +27,10 @@ google::protobuf::Timestamp ToTimestamp(absl::Time time) {
   return timestamp;
 }
 
+absl::Time ToTime(const google::protobuf::Timestamp& timestamp) {
+  return absl::FromUnixSeconds(timestamp.seconds()) + absl::Nanoseconds(timestamp.nanos());
+}
+
 std::string ToEtag(int64_t revision) { return absl::StrCat("\"", revision, "\""); }
 
 absl::Status NotFound(std::string_view name, std::string_view field) {

@@ -27,6 +27,7 @@ absl::StatusOr<T> ReadMessage(const sql::Statement& row, int column) {
 std::string ToBlob(const google::protobuf::MessageLite& message);
 
 google::protobuf::Timestamp ToTimestamp(absl::Time time);
+absl::Time ToTime(const google::protobuf::Timestamp& timestamp);
 
 // An entity tag of a state that was written at `revision`.
 std::string ToEtag(int64_t revision);
