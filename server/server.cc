@@ -10,6 +10,9 @@
 #include "server/rpc/drain.h"
 #include "server/rpc/executor.h"
 #include "server/rpc/listener.h"
+#include "server/rpc/log.h"
+#include "server/scheduled_tasks.h"
+#include "server/scheduler.h"
 #include "server/services/bindings/bindings.h"
 #include "server/services/recalibration_job.h"
 #include "server/services/release.h"
@@ -44,7 +47,8 @@ struct Server::Parts {
         jobs::Runner runner)
       : options(server_options),
         store(std::move(opened)),
-        engine(*store, std::move(runner), ToEngineOptions(options)),
+        engine(*store, std::move(runner), ToEngineOptions(options), store->clock()),
+        scheduler(ScheduledTasks(*store), options.schedule, store->clock(), rpc::LogError),
         handlers(options.handler_threads, kMostWaitingCalls),
         compute(options.compute_threads, kMostWaitingCalls),
         services(services::BindServices({*store, engine}, {handlers, compute}, drain,
@@ -56,6 +60,7 @@ struct Server::Parts {
   const ServerOptions options;
   const std::unique_ptr<store::Store> store;
   jobs::JobEngine engine;
+  Scheduler scheduler;
   watch::WakeHub hub;
   rpc::Drain drain;
   rpc::Executor handlers, compute;
@@ -69,9 +74,11 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerOptions& optio
   TRUEPOSE_RETURN_IF_ERROR(options.Validate());
   TRUEPOSE_ASSIGN_OR_RETURN(const ListenAddress address, ParseListenAddress(options.listen));
   TRUEPOSE_RETURN_IF_ERROR(CheckFree(address));
-  TRUEPOSE_ASSIGN_OR_RETURN(auto store, store::Store::Open({.path = options.database}));
+  TRUEPOSE_ASSIGN_OR_RETURN(auto store,
+                            store::Store::Open({.path = options.database, .clock = options.clock}));
   auto parts = std::make_unique<Parts>(options, std::move(store), std::move(runner));
   TRUEPOSE_RETURN_IF_ERROR(parts->engine.Start());
+  parts->scheduler.Start();
   TRUEPOSE_ASSIGN_OR_RETURN(parts->listener,
                             rpc::Listener::Start(parts->services, ToGrpc(address)));
   return std::unique_ptr<Server>(new Server(std::move(parts)));
@@ -92,6 +99,7 @@ void Server::Stop() {
   parts_->listener->StopServing();
   parts_->drain.Begin();
   parts_->listener->Shutdown(parts_->options.drain);
+  parts_->scheduler.Stop();
   parts_->engine.Stop();
 }
 

@@ -103,7 +103,17 @@ PosesToMeasure Thin(const Measured& measured, int poses) {
   return result;
 }
 
+constexpr char kNeedPoses[] = "type.truepose/need-poses";
+
 }  // namespace
+
+absl::Status NeedPoses() {
+  absl::Status status = absl::AbortedError("the poses to measure are not chosen yet");
+  status.SetPayload(kNeedPoses, absl::Cord());
+  return status;
+}
+
+bool IsNeedPoses(const absl::Status& status) { return status.GetPayload(kNeedPoses).has_value(); }
 
 absl::StatusOr<PosesToMeasure> PlanPoses(store::Store& store, const std::string& robot,
                                          const std::string& asked) {

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <type_traits>
 
 #include "absl/status/statusor.h"
 #include "server/store/store.h"
@@ -26,5 +27,22 @@ struct PosesToMeasure {
 // `recalibration_request.pose_set`); kInvalidArgument for an `asked` of another robot.
 absl::StatusOr<PosesToMeasure> PlanPoses(store::Store& store, const std::string& robot,
                                          const std::string& asked);
+
+// What a closure returns that has found out that it needs poses.
+absl::Status NeedPoses();
+bool IsNeedPoses(const absl::Status& status);
+
+// Poses take long to choose and are seldom needed: `attempt(const PosesToMeasure*)`, which writes
+// and returns a StatusOr, is called with nullptr, and when it returns NeedPoses() once more with
+// the robot's.
+template <typename Attempt>
+auto WithPoses(store::Store& store, const std::string& robot, Attempt attempt)
+    -> std::invoke_result_t<Attempt&, const PosesToMeasure*> {
+  auto result = attempt(nullptr);
+  if (!IsNeedPoses(result.status())) return result;
+  const absl::StatusOr<PosesToMeasure> poses = PlanPoses(store, robot, "");
+  if (!poses.ok()) return poses.status();
+  return attempt(&*poses);
+}
 
 }  // namespace truepose::services

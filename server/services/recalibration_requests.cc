@@ -33,8 +33,7 @@ absl::StatusOr<absl::Duration> ExpireAfter(store::Snapshot& snapshot, const std:
   absl::Duration least = absl::InfiniteDuration();
   for (const v1::RecalibrationPolicy& policy : policies) {
     if (policy.has_expire_after())
-      least = std::min(least, absl::Seconds(policy.expire_after().seconds()) +
-                                  absl::Nanoseconds(policy.expire_after().nanos()));
+      least = std::min(least, store::ToDuration(policy.expire_after()));
   }
   return least == absl::InfiniteDuration() ? kExpireAfter : least;
 }
@@ -108,15 +107,16 @@ absl::StatusOr<v1::RecalibrationRequest> RaiseRequest(Transaction& transaction,
 
 absl::StatusOr<std::optional<v1::RecalibrationRequest>> RaiseOrNote(Transaction& transaction,
                                                                     const NewRequest& request,
-                                                                    const PosesToMeasure& poses) {
+                                                                    const PosesToMeasure* poses) {
   TRUEPOSE_ASSIGN_OR_RETURN(auto open, FindOpenRequest(transaction, request.robot));
   if (open.has_value()) {
     TRUEPOSE_RETURN_IF_ERROR(AppendStep(transaction, open->state(), request.created_by,
                                         absl::StrCat("also: ", request.reason), *open));
     return std::optional<v1::RecalibrationRequest>();
   }
+  if (poses == nullptr) return NeedPoses();
   TRUEPOSE_ASSIGN_OR_RETURN(v1::RecalibrationRequest raised,
-                            RaiseRequest(transaction, request, poses));
+                            RaiseRequest(transaction, request, *poses));
   return std::optional(std::move(raised));
 }
 

@@ -39,10 +39,11 @@ absl::StatusOr<v1::RecalibrationRequest> RaiseRequest(store::Transaction& transa
                                                       const PosesToMeasure& poses);
 
 // The same for causes that the server finds: where a request is open already, the cause is appended
-// to its steps, and nothing else is raised. @returns the raised one; nothing when one was open.
+// to its steps, and nothing else is raised. @returns the raised one; nothing when one was open;
+// NeedPoses() when one is to be raised and `poses` is nullptr, for WithPoses.
 absl::StatusOr<std::optional<v1::RecalibrationRequest>> RaiseOrNote(store::Transaction& transaction,
                                                                     const NewRequest& request,
-                                                                    const PosesToMeasure& poses);
+                                                                    const PosesToMeasure* poses);
 
 // Writes the request, as it is changed by the caller, with one more step. Whether `to` may follow
 // is the caller's to check (recalibration_rules.h).

@@ -1,5 +1,7 @@
 #include "server/services/bindings/binding.h"
+#include "server/services/drift_checks.h"
 #include "server/services/recalibration.h"
+#include "server/services/robot_events.h"
 #include "server/services/standard.h"
 #include "truepose/v1/recalibration_services.grpc.pb.h"
 
@@ -12,10 +14,12 @@ class RecalibrationBinding final : public v1::RecalibrationService::CallbackServ
       : call_(call), handlers_(executors.handlers), compute_(executors.compute) {}
 
   TRUEPOSE_BIND_RESOURCE(RecalibrationPolicy, RecalibrationPolicies)
+  TRUEPOSE_BIND(CreateRobotEvent, CreateRobotEventRequest, RobotEvent, handlers_)
   TRUEPOSE_BIND_STANDARD(GetRobotEvent, RobotEvent, GetStandard)
   TRUEPOSE_BIND_STANDARD(ListRobotEvents, ListRobotEventsResponse, ListStandard)
   TRUEPOSE_BIND_STANDARD(GetRecalibrationRequest, RecalibrationRequest, GetStandard)
   TRUEPOSE_BIND_STANDARD(ListRecalibrationRequests, ListRecalibrationRequestsResponse, ListStandard)
+  TRUEPOSE_BIND(CreateDriftCheck, CreateDriftCheckRequest, DriftCheck, compute_)
   TRUEPOSE_BIND_STANDARD(GetDriftCheck, DriftCheck, GetStandard)
   TRUEPOSE_BIND_STANDARD(ListDriftChecks, ListDriftChecksResponse, ListStandard)
   TRUEPOSE_BIND_STANDARD(ListAgentReports, ListAgentReportsResponse, ListStandard)

@@ -5,9 +5,12 @@
 
 #include "absl/strings/str_cat.h"
 #include "server/services/recalibration.h"
+#include "server/services/recalibration_requests.h"
 #include "server/services/release.h"
+#include "server/services/standard.h"
 #include "server/services/stored_resources.h"
 #include "tests/server/testing/handler_test.h"
+#include "tests/store/testing/fake_clock.h"
 
 namespace truepose::services {
 
@@ -19,9 +22,15 @@ inline std::string RequestName(const std::string& id) {
   return absl::StrCat(kRobot, "/recalibrationRequests/", id);
 }
 
-class RecalibrationFixture : public testing::HandlerTest {
+// Before the store that looks at it.
+class WithClock {
  protected:
-  RecalibrationFixture() {
+  store::FakeClock clock_;
+};
+
+class RecalibrationFixture : protected WithClock, public testing::HandlerTest {
+ protected:
+  RecalibrationFixture() : HandlerTest(&clock_) {
     AddRobot("ur10");
     AddSimulatedSession(testing::kSession1, "ur10", testing::kCalibrationPoses);
     Activate(AddCalibration("ur10", testing::kSession1, testing::kJob1).name());
@@ -79,6 +88,23 @@ class RecalibrationFixture : public testing::HandlerTest {
     request.set_name(RequestName(id));
     request.set_reason("it is being scrapped");
     return DeclineRecalibration(As("ben"), request);
+  }
+
+  void SetPolicy(const std::string& content, const std::string& id = "default") {
+    v1::CreateRecalibrationPolicyRequest request;
+    request.set_parent(kRobot);
+    request.set_recalibration_policy_id(id);
+    *request.mutable_recalibration_policy() = testing::Parse<v1::RecalibrationPolicy>(content);
+    v1::RecalibrationPolicy policy;
+    ASSERT_THAT(CreateStandard(call(), request, policy), testing::IsOk());
+  }
+
+  // The only request that is open.
+  v1::RecalibrationRequest Open() {
+    auto open =
+        store().Read([](store::Snapshot& snapshot) { return FindOpenRequest(snapshot, kRobot); });
+    EXPECT_THAT(open, testing::IsOk());
+    return open->value_or(v1::RecalibrationRequest());
   }
 
   template <typename T>
