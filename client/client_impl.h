@@ -7,6 +7,7 @@
 #include "client/client.h"
 #include "grpcpp/channel.h"
 #include "grpcpp/client_context.h"
+#include "truepose/v1/recalibration_services.grpc.pb.h"
 #include "truepose/v1/services.grpc.pb.h"
 
 namespace truepose::client {
@@ -19,6 +20,7 @@ struct Client::Impl {
   std::unique_ptr<v1::RobotService::Stub> robots;
   std::unique_ptr<v1::SessionService::Stub> sessions;
   std::unique_ptr<v1::CalibrationService::Stub> calibrations;
+  std::unique_ptr<v1::RecalibrationService::Stub> recalibrations;
 };
 
 // The metadata that every call carries.
