@@ -67,6 +67,21 @@ TEST_F(RecalibrationTest, CarriesThinnedPosesOfTheActiveSession) {
   EXPECT_EQ(poses->origin(), absl::StrCat("thinned from sessions/", kSession1));
 }
 
+// Would catch a set that is thinned although one was asked for or a policy names one, and the set
+// of a robot with other joints.
+TEST_F(RecalibrationTest, AnUploadedPoseSetIsTakenAsItIs) {
+  AddRobot("other");
+  const std::string foreign = AddPoseSet("theirs", "robots/other");
+  EXPECT_THAT(Ask(kRequest1, absl::StrCat("pose_set: '", foreign, "'")),
+              HasFaultsAt(Fields{"recalibration_request.pose_set"}));
+  const std::string policys = AddPoseSet("usual"), asked = AddPoseSet("short");
+  SetPolicy(absl::StrCat("pose_set: '", policys, "'"));
+  EXPECT_EQ(Ask(kRequest1)->pose_set(), policys);
+  ASSERT_THAT(Decline(kRequest1), IsOk());
+  EXPECT_EQ(Ask(kRequest2, absl::StrCat("pose_set: '", asked, "'"))->pose_set(), asked);
+  EXPECT_EQ(All<v1::PoseSet>().size(), 2u);
+}
+
 // Would catch two open requests of one robot, and a refusal that doesn't say which one is open.
 TEST_F(RecalibrationTest, OneIsOpenAtATime) {
   ASSERT_THAT(Ask(kRequest1), IsOk());

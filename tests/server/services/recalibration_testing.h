@@ -11,6 +11,7 @@
 #include "server/services/stored_resources.h"
 #include "tests/server/testing/handler_test.h"
 #include "tests/store/testing/fake_clock.h"
+#include "truepose/v1/plant_services.pb.h"
 
 namespace truepose::services {
 
@@ -97,6 +98,18 @@ class RecalibrationFixture : protected WithClock, public testing::HandlerTest {
     *request.mutable_recalibration_policy() = testing::Parse<v1::RecalibrationPolicy>(content);
     v1::RecalibrationPolicy policy;
     ASSERT_THAT(CreateStandard(call(), request, policy), testing::IsOk());
+  }
+
+  // @returns its name.
+  std::string AddPoseSet(const std::string& id, const std::string& robot = kRobot) {
+    v1::CreatePoseSetRequest request;
+    request.set_parent(robot);
+    request.set_pose_set_id(id);
+    *request.mutable_pose_set() = testing::Parse<v1::PoseSet>(
+        "purpose: POSE_SET_CALIBRATE poses { joints: [0, 0, 0, 0, 0, 0] }");
+    v1::PoseSet set;
+    EXPECT_THAT(CreateStandard(call(), request, set), testing::IsOk());
+    return set.name();
   }
 
   // The only request that is open.
