@@ -60,7 +60,8 @@ Client::Impl::Impl(std::shared_ptr<grpc::Channel> channel, std::string server, C
       robots(v1::RobotService::NewStub(channel)),
       sessions(v1::SessionService::NewStub(channel)),
       calibrations(v1::CalibrationService::NewStub(channel)),
-      admin(v1::AdminService::NewStub(channel)) {}
+      admin(v1::AdminService::NewStub(channel)),
+      recalibrations(v1::RecalibrationService::NewStub(channel)) {}
 
 Client::Client(std::shared_ptr<grpc::Channel> channel, std::string address, ClientOptions options)
     : impl_(std::make_unique<Impl>(std::move(channel), std::move(address), options)) {}
@@ -86,6 +87,8 @@ const std::string& Client::address() const { return impl_->address; }
   TRUEPOSE_CALL(AdminService, admin, Method, Method##Request, Response, 1)
 #define TRUEPOSE_CALIBRATION_CALL(Method, Response, factor) \
   TRUEPOSE_CALL(CalibrationService, calibrations, Method, Method##Request, Response, factor)
+#define TRUEPOSE_RECALIBRATION_CALL(Method, Response, factor) \
+  TRUEPOSE_CALL(RecalibrationService, recalibrations, Method, Method##Request, Response, factor)
 
 TRUEPOSE_ROBOT_CALL(CreateRobot, Robot)
 TRUEPOSE_ROBOT_CALL(GetRobot, Robot)
@@ -111,5 +114,22 @@ TRUEPOSE_ADMIN_CALL(CreateToken, CreateTokenResponse)
 TRUEPOSE_ADMIN_CALL(ListTokens, ListTokensResponse)
 TRUEPOSE_ADMIN_CALL(RevokeToken, Token)
 TRUEPOSE_ADMIN_CALL(GetServerStatus, ServerStatus)
+TRUEPOSE_RECALIBRATION_CALL(CreateRobotEvent, RobotEvent, 1)
+TRUEPOSE_RECALIBRATION_CALL(ListRobotEvents, ListRobotEventsResponse, 1)
+TRUEPOSE_RECALIBRATION_CALL(CreateRecalibrationPolicy, RecalibrationPolicy, 1)
+TRUEPOSE_RECALIBRATION_CALL(ListRecalibrationPolicies, ListRecalibrationPoliciesResponse, 1)
+TRUEPOSE_RECALIBRATION_CALL(UpdateRecalibrationPolicy, RecalibrationPolicy, 1)
+TRUEPOSE_RECALIBRATION_CALL(DeleteRecalibrationPolicy, RecalibrationPolicy, 1)
+TRUEPOSE_RECALIBRATION_CALL(UndeleteRecalibrationPolicy, RecalibrationPolicy, 1)
+TRUEPOSE_RECALIBRATION_CALL(CreateRecalibrationRequest, RecalibrationRequest, kComputeFactor)
+TRUEPOSE_RECALIBRATION_CALL(GetRecalibrationRequest, RecalibrationRequest, 1)
+TRUEPOSE_RECALIBRATION_CALL(ListRecalibrationRequests, ListRecalibrationRequestsResponse, 1)
+TRUEPOSE_RECALIBRATION_CALL(AcknowledgeRecalibration, RecalibrationRequest, 1)
+TRUEPOSE_RECALIBRATION_CALL(ReportMeasuring, RecalibrationRequest, 1)
+TRUEPOSE_RECALIBRATION_CALL(CalibrateForRequest, RecalibrationRequest, 1)
+TRUEPOSE_RECALIBRATION_CALL(DeclineRecalibration, RecalibrationRequest, 1)
+TRUEPOSE_RECALIBRATION_CALL(CreateDriftCheck, DriftCheck, kComputeFactor)
+TRUEPOSE_RECALIBRATION_CALL(ListDriftChecks, ListDriftChecksResponse, 1)
+TRUEPOSE_RECALIBRATION_CALL(ReportAgent, AgentReport, 1)
 
 }  // namespace truepose::client

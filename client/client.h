@@ -20,6 +20,7 @@
 #include "absl/status/statusor.h"
 #include "truepose/v1/admin_services.pb.h"
 #include "truepose/v1/calibration.pb.h"
+#include "truepose/v1/recalibration_services.pb.h"
 #include "truepose/v1/robot.pb.h"
 #include "truepose/v1/services.pb.h"
 #include "truepose/v1/session.pb.h"
@@ -93,6 +94,37 @@ class Client {
   absl::StatusOr<v1::ListTokensResponse> ListTokens(const v1::ListTokensRequest& request) const;
   absl::StatusOr<v1::Token> RevokeToken(const v1::RevokeTokenRequest& request) const;
   absl::StatusOr<v1::ServerStatus> GetServerStatus(const v1::GetServerStatusRequest& request) const;
+  absl::StatusOr<v1::RobotEvent> CreateRobotEvent(const v1::CreateRobotEventRequest& request) const;
+  absl::StatusOr<v1::ListRobotEventsResponse> ListRobotEvents(
+      const v1::ListRobotEventsRequest& request) const;
+  absl::StatusOr<v1::RecalibrationPolicy> CreateRecalibrationPolicy(
+      const v1::CreateRecalibrationPolicyRequest& request) const;
+  absl::StatusOr<v1::ListRecalibrationPoliciesResponse> ListRecalibrationPolicies(
+      const v1::ListRecalibrationPoliciesRequest& request) const;
+  absl::StatusOr<v1::RecalibrationPolicy> UpdateRecalibrationPolicy(
+      const v1::UpdateRecalibrationPolicyRequest& request) const;
+  absl::StatusOr<v1::RecalibrationPolicy> DeleteRecalibrationPolicy(
+      const v1::DeleteRecalibrationPolicyRequest& request) const;
+  absl::StatusOr<v1::RecalibrationPolicy> UndeleteRecalibrationPolicy(
+      const v1::UndeleteRecalibrationPolicyRequest& request) const;
+  absl::StatusOr<v1::RecalibrationRequest> CreateRecalibrationRequest(
+      const v1::CreateRecalibrationRequestRequest& request) const;
+  absl::StatusOr<v1::RecalibrationRequest> GetRecalibrationRequest(
+      const v1::GetRecalibrationRequestRequest& request) const;
+  absl::StatusOr<v1::ListRecalibrationRequestsResponse> ListRecalibrationRequests(
+      const v1::ListRecalibrationRequestsRequest& request) const;
+  absl::StatusOr<v1::RecalibrationRequest> AcknowledgeRecalibration(
+      const v1::AcknowledgeRecalibrationRequest& request) const;
+  absl::StatusOr<v1::RecalibrationRequest> ReportMeasuring(
+      const v1::ReportMeasuringRequest& request) const;
+  absl::StatusOr<v1::RecalibrationRequest> CalibrateForRequest(
+      const v1::CalibrateForRequestRequest& request) const;
+  absl::StatusOr<v1::RecalibrationRequest> DeclineRecalibration(
+      const v1::DeclineRecalibrationRequest& request) const;
+  absl::StatusOr<v1::DriftCheck> CreateDriftCheck(const v1::CreateDriftCheckRequest& request) const;
+  absl::StatusOr<v1::ListDriftChecksResponse> ListDriftChecks(
+      const v1::ListDriftChecksRequest& request) const;
+  absl::StatusOr<v1::AgentReport> ReportAgent(const v1::ReportAgentRequest& request) const;
 
   // One stream of the job's states: the present one, then each change. `on_job` is called in this
   // thread and ends the stream by returning false. `is_cancelled`, when given, is asked a few times

@@ -8,6 +8,7 @@
 #include "grpcpp/channel.h"
 #include "grpcpp/client_context.h"
 #include "truepose/v1/admin_services.grpc.pb.h"
+#include "truepose/v1/recalibration_services.grpc.pb.h"
 #include "truepose/v1/services.grpc.pb.h"
 
 namespace truepose::client {
@@ -21,6 +22,7 @@ struct Client::Impl {
   std::unique_ptr<v1::SessionService::Stub> sessions;
   std::unique_ptr<v1::CalibrationService::Stub> calibrations;
   std::unique_ptr<v1::AdminService::Stub> admin;
+  std::unique_ptr<v1::RecalibrationService::Stub> recalibrations;
 };
 
 // The metadata that every call carries, the token's secret among them.

@@ -13,8 +13,12 @@
 #include "server/rpc/drain.h"
 #include "server/rpc/executor.h"
 #include "server/rpc/listener.h"
+#include "server/rpc/log.h"
+#include "server/scheduled_tasks.h"
+#include "server/scheduler.h"
 #include "server/services/administration.h"
 #include "server/services/bindings/bindings.h"
+#include "server/services/recalibration_job.h"
 #include "server/services/release.h"
 #include "server/store/store.h"
 #include "server/time_zone.h"
@@ -36,6 +40,7 @@ jobs::EngineOptions ToEngineOptions(const ServerOptions& options) {
   jobs::EngineOptions engine;
   engine.workers = options.workers;
   engine.with_result = services::ReleaseWithinLimits;
+  engine.on_end = services::MoveRequestOfJob;
   return engine;
 }
 
@@ -86,7 +91,8 @@ struct Server::Parts {
       : options(server_options),
         store(std::move(opened)),
         access(std::move(opened_access)),
-        engine(*store, std::move(runner), ToEngineOptions(options)),
+        engine(*store, std::move(runner), ToEngineOptions(options), store->clock()),
+        scheduler(ScheduledTasks(*store), options.schedule, store->clock(), rpc::LogError),
         handlers(options.handler_threads, kMostWaitingCalls),
         compute(options.compute_threads, kMostWaitingCalls),
         administration{*access.authenticator, *access.bootstrap, FactsOf(options, hub)},
@@ -100,6 +106,7 @@ struct Server::Parts {
   const std::unique_ptr<store::Store> store;
   const Access access;
   jobs::JobEngine engine;
+  Scheduler scheduler;
   watch::WakeHub hub;
   rpc::Drain drain;
   rpc::Executor handlers, compute;
@@ -114,11 +121,13 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerOptions& optio
   TRUEPOSE_RETURN_IF_ERROR(options.Validate());
   TRUEPOSE_ASSIGN_OR_RETURN(const ListenAddress address, ParseListenAddress(options.listen));
   TRUEPOSE_RETURN_IF_ERROR(CheckFree(address));
-  TRUEPOSE_ASSIGN_OR_RETURN(auto store, store::Store::Open({.path = options.database}));
+  TRUEPOSE_ASSIGN_OR_RETURN(auto store,
+                            store::Store::Open({.path = options.database, .clock = options.clock}));
   TRUEPOSE_ASSIGN_OR_RETURN(Access access, OpenAccess(options, *store));
   auto parts =
       std::make_unique<Parts>(options, std::move(store), std::move(access), std::move(runner));
   TRUEPOSE_RETURN_IF_ERROR(parts->engine.Start());
+  parts->scheduler.Start();
   TRUEPOSE_ASSIGN_OR_RETURN(parts->listener,
                             rpc::Listener::Start(parts->services, ToGrpc(address)));
   return std::unique_ptr<Server>(new Server(std::move(parts)));
@@ -141,6 +150,7 @@ void Server::Stop() {
   parts_->listener->StopServing();
   parts_->drain.Begin();
   parts_->listener->Shutdown(parts_->options.drain);
+  parts_->scheduler.Stop();
   parts_->engine.Stop();
 }
 

@@ -1,9 +1,9 @@
 // The composition root: store, job engine, services and listener, built in this order and taken
 // down in reverse.
 //
-//   Start: address free? -> store -> engine -> executors -> services -> listener
-//   Stop:  NOT_SERVING -> streams end, calls get `drain` -> engine stops, its jobs go back to
-//   PENDING -> store closes
+//   Start: address free? -> store -> engine -> scheduler -> executors -> services -> listener
+//   Stop:  NOT_SERVING -> streams end, calls get `drain` -> scheduler and engine stop, its jobs go
+//   back to PENDING -> store closes
 #pragma once
 
 #include <memory>

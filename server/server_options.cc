@@ -36,6 +36,8 @@ absl::Status ServerOptions::Validate() const {
     faults.Add("drain", absl::FormatDuration(drain), "not negative");
   if (watch_stall <= absl::ZeroDuration())
     faults.Add("watch_stall", absl::FormatDuration(watch_stall), "more than 0");
+  if (schedule <= absl::ZeroDuration())
+    faults.Add("schedule", absl::FormatDuration(schedule), "more than 0");
   return faults.ToStatus();
 }
 

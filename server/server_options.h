@@ -5,6 +5,7 @@
 
 #include "absl/status/status.h"
 #include "absl/time/time.h"
+#include "server/store/clock.h"
 
 namespace truepose::server {
 
@@ -22,6 +23,9 @@ struct ServerOptions {
       absl::Seconds(10);  // what calls under way get at the end before they are cut
   absl::Duration watch_stall =
       absl::Seconds(20);  // a watcher that doesn't take a message for so long is cut
+  // Between looks for what is due: intervals of policies, requests that expire, old history.
+  absl::Duration schedule = absl::Minutes(1);
+  const store::Clock* clock = nullptr;  // not owned; nullptr = the system's, others for tests
 
   // Every fault at once, with the option's name as field.
   absl::Status Validate() const;

@@ -8,6 +8,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
+#include "server/jobs/job_state.h"
 #include "server/jobs/running_jobs.h"
 #include "server/jobs/stop_signal.h"
 #include "server/jobs/sweeper.h"
@@ -90,7 +91,7 @@ class JobEngine::State {
     context_.At("before_cancel");
     TRUEPOSE_ASSIGN_OR_RETURN(const v1::CalibrationJob job,
                               store_.Write([&](Transaction& transaction) {
-                                auto asked = RequestCancel(transaction, name);
+                                auto asked = CancelOne(transaction, name);
                                 context_.At("cancel_written");
                                 return asked;
                               }));
@@ -110,11 +111,26 @@ class JobEngine::State {
   }
 
  private:
+  absl::StatusOr<v1::CalibrationJob> CancelOne(Transaction& transaction, const std::string& name) {
+    TRUEPOSE_ASSIGN_OR_RETURN(const v1::CalibrationJob before, store::GetJob(transaction, name));
+    TRUEPOSE_ASSIGN_OR_RETURN(v1::CalibrationJob job, RequestCancel(transaction, name));
+    if (!IsTerminal(before.state())) TRUEPOSE_RETURN_IF_ERROR(context_.TellEnd(transaction, name));
+    return job;
+  }
+
+  absl::StatusOr<std::vector<std::string>> RecoverAll(Transaction& transaction) {
+    TRUEPOSE_ASSIGN_OR_RETURN(std::vector<std::string> names,
+                              RecoverRunning(transaction, options_.max_attempts));
+    for (const std::string& name : names)
+      TRUEPOSE_RETURN_IF_ERROR(context_.TellEnd(transaction, name));
+    return names;
+  }
+
   absl::StatusOr<std::vector<std::string>> Recover() {
     context_.At("before_recover");
     TRUEPOSE_ASSIGN_OR_RETURN(std::vector<std::string> names,
                               store_.Write([this](Transaction& transaction) {
-                                auto recovered = RecoverRunning(transaction, options_.max_attempts);
+                                auto recovered = RecoverAll(transaction);
                                 context_.At("recover_written");
                                 return recovered;
                               }));

@@ -44,6 +44,11 @@ struct EngineOptions {
   // once, as every closure.
   std::function<absl::Status(store::Transaction&, const v1::Calibration&)> with_result;
 
+  // Called in the transaction that ends a job, whoever ends it: SUCCEEDED (after with_result),
+  // FAILED or CANCELLED. What waits for the job moves on in the same commit. An error undoes the
+  // end, which is tried again. May be empty; may run more than once, as every closure.
+  std::function<absl::Status(store::Transaction&, const v1::CalibrationJob&)> on_end;
+
   // Told what no caller hears of, such as a result that can't be stored yet; from any thread. May
   // be empty.
   std::function<void(const std::string&)> on_warning;

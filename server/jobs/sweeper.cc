@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/base/status_macros.h"
+
 namespace truepose::jobs {
 
 using store::Snapshot;
@@ -22,9 +24,24 @@ void Sweeper::FailLateJobs() {
     return store::LatePendingJobs(snapshot, context_.clock.Now(), 1);
   });
   if (late.ok() && !late->empty())
-    late = context_.store.Write([](Transaction& transaction) { return FailLate(transaction); });
+    late = context_.store.Write([this](Transaction& transaction) { return EndLate(transaction); });
   if (!late.ok()) return context_.Warn("jobs beyond their deadline can't be ended", late.status());
   for (const std::string& name : *late) context_.on_changed(name);
+}
+
+absl::StatusOr<std::vector<std::string>> Sweeper::EndLate(Transaction& transaction) {
+  TRUEPOSE_ASSIGN_OR_RETURN(std::vector<std::string> names, FailLate(transaction));
+  for (const std::string& name : names)
+    TRUEPOSE_RETURN_IF_ERROR(context_.TellEnd(transaction, name));
+  return names;
+}
+
+absl::StatusOr<bool> Sweeper::TakeBackOne(Transaction& transaction, const Claim& claim,
+                                          const std::string& reason) {
+  TRUEPOSE_ASSIGN_OR_RETURN(const bool taken,
+                            TakeBack(transaction, claim, context_.options.max_attempts, reason));
+  if (taken) TRUEPOSE_RETURN_IF_ERROR(context_.TellEnd(transaction, claim.job.name()));
+  return taken;
 }
 
 void Sweeper::TakeBackSilentJobs() {
@@ -33,9 +50,8 @@ void Sweeper::TakeBackSilentJobs() {
   for (const std::shared_ptr<RunningJob>& job : context_.running.All()) {
     if (context_.clock.Monotonic() - job->LastBeat() <= context_.options.lease) continue;
     const Claim& claim = job->claim();
-    const auto taken = context_.store.Write([&](Transaction& transaction) {
-      return TakeBack(transaction, claim, context_.options.max_attempts, reason);
-    });
+    const auto taken = context_.store.Write(
+        [&](Transaction& transaction) { return TakeBackOne(transaction, claim, reason); });
     if (!taken.ok())
       context_.Warn(absl::StrCat(claim.job.name(), " can't be taken back"), taken.status());
     if (!taken.ok() || !*taken) continue;

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "server/jobs/worker_context.h"
 
@@ -22,6 +24,9 @@ class Sweeper {
  private:
   void FailLateJobs();
   void TakeBackSilentJobs();
+  absl::StatusOr<std::vector<std::string>> EndLate(store::Transaction& transaction);
+  absl::StatusOr<bool> TakeBackOne(store::Transaction& transaction, const Claim& claim,
+                                   const std::string& reason);
 
   const WorkerContext& context_;
   const std::function<void()> replace_worker_;

@@ -69,14 +69,20 @@ bool Worker::RunClaim(const Claim& claim) {
 absl::StatusOr<bool> Worker::EndWithResult(Transaction& transaction, const Claim& claim,
                                            const Outcome& outcome) {
   TRUEPOSE_ASSIGN_OR_RETURN(const bool ended, EndJob(transaction, claim, outcome));
-  if (!ended || !context_.options.with_result) return ended;
+  if (!ended) return ended;
+  TRUEPOSE_RETURN_IF_ERROR(TellResult(transaction, claim));
+  TRUEPOSE_RETURN_IF_ERROR(context_.TellEnd(transaction, claim.job.name()));
+  return ended;
+}
+
+absl::Status Worker::TellResult(Transaction& transaction, const Claim& claim) {
+  if (!context_.options.with_result) return absl::OkStatus();
   TRUEPOSE_ASSIGN_OR_RETURN(const v1::CalibrationJob job,
                             store::GetJob(transaction, claim.job.name()));
-  if (job.state() != v1::SUCCEEDED) return ended;
+  if (job.state() != v1::SUCCEEDED) return absl::OkStatus();
   TRUEPOSE_ASSIGN_OR_RETURN(const v1::Calibration calibration,
                             store::GetCalibration(transaction, job.calibration()));
-  TRUEPOSE_RETURN_IF_ERROR(context_.options.with_result(transaction, calibration));
-  return ended;
+  return context_.options.with_result(transaction, calibration);
 }
 
 void Worker::StoreOutcome(RunningJob& running, Outcome outcome) {

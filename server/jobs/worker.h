@@ -23,6 +23,7 @@ class Worker {
   // The end of the job, and what goes with its result, in one transaction.
   absl::StatusOr<bool> EndWithResult(store::Transaction& transaction, const Claim& claim,
                                      const Outcome& outcome);
+  absl::Status TellResult(store::Transaction& transaction, const Claim& claim);
   // Until it is stored, the lease is lost, or the stop.
   void StoreOutcome(RunningJob& running, Outcome outcome);
 

@@ -29,6 +29,8 @@ struct WorkerContext {
   void At(std::string_view point) const {
     if (options.at_point) options.at_point(point);
   }
+  // Tells EngineOptions::on_end of a job that this transaction has ended; of another nothing.
+  absl::Status TellEnd(store::Transaction& transaction, const std::string& name) const;
   void Warn(const std::string& what, const absl::Status& status) const {
     if (options.on_warning) options.on_warning(absl::StrCat(what, ": ", status.ToString()));
   }

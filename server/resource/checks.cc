@@ -1,8 +1,10 @@
 #include "server/resource/checks.h"
 
 #include <cmath>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_split.h"
 #include "convert/fixture.h"
 #include "convert/frames.h"
 #include "server/store/names.h"
@@ -25,6 +27,13 @@ void CheckFramePose(const v1::Pose& pose, bool given, FaultList& faults) {
 // Names of plant resources: a prefix and an id.
 bool BeginsWith(const std::string& name, const std::string& prefix) {
   return name.size() > prefix.size() && name.starts_with(prefix);
+}
+
+// Names of resources of a robot.
+bool IsOfRobot(const std::string& name, const std::string& collection) {
+  const std::vector<std::string> parts = absl::StrSplit(name, '/');
+  return parts.size() == 4 && parts[0] == "robots" && parts[2] == collection && !parts[1].empty() &&
+         !parts[3].empty();
 }
 
 void CheckJoints(const v1::PoseSet& set, int pose, FaultList& faults) {
@@ -120,9 +129,14 @@ void CheckRecalibrationPolicy(const Message& content, FaultList& faults) {
   if (policy.poses() < 0) faults.Add("poses", absl::StrCat(policy.poses()), "0 or more");
   for (int i = 0; i < policy.event_kinds_size(); ++i) {
     const auto kind = policy.event_kinds(i);
-    if (kind != v1::ROBOT_EVENT_KIND_UNSPECIFIED && v1::RobotEventKind_IsValid(kind)) continue;
+    const bool known = kind != v1::ROBOT_EVENT_KIND_UNSPECIFIED && v1::RobotEventKind_IsValid(kind);
+    if (known && kind != v1::TEMPERATURE) continue;
     faults.Add(absl::StrCat("event_kinds[", i, "]"), absl::StrCat(static_cast<int>(kind)),
-               "COLLISION, MOTOR_CHANGE, TEMPERATURE, RELOCATION or NOTE");
+               "COLLISION, MOTOR_CHANGE, RELOCATION or NOTE; of temperature, temperature_step_k");
+  }
+  if (!policy.pose_set().empty() && !IsOfRobot(policy.pose_set(), "poseSets")) {
+    faults.Add("pose_set", absl::StrCat("'", policy.pose_set(), "'"),
+               "robots/{robot}/poseSets/{pose_set}, or nothing");
   }
 }
 

@@ -38,7 +38,9 @@ auto WriteOnce(const CallContext& call, const Request& request, Closure closure)
   using Result = std::invoke_result_t<Closure&, store::Transaction&>;
   const store::RequestKey key =
       resource::KeyOf(call.caller.principal, request, request.request_id());
-  return WriteUnless(request.validate_only(), call.store, [&](store::Transaction& transaction) {
+  bool validate_only = false;
+  if constexpr (requires { request.validate_only(); }) validate_only = request.validate_only();
+  return WriteUnless(validate_only, call.store, [&](store::Transaction& transaction) {
     return resource::Once<typename Result::value_type>(transaction, key,
                                                        [&](auto& inner) { return closure(inner); });
   });

@@ -11,6 +11,7 @@
 #include "core/base/status_macros.h"
 #include "server/services/closures.h"
 #include "server/services/live.h"
+#include "server/services/recalibration_job.h"
 #include "server/store/jobs.h"
 #include "server/store/names.h"
 #include "server/store/robots.h"
@@ -77,7 +78,23 @@ absl::Status CheckSessions(const std::vector<v1::Session>& sessions, const std::
   return faults.ToStatus(absl::StatusCode::kFailedPrecondition);
 }
 
-// The job as it is to be stored: what was asked for, and what that means today.
+// The job as it would be stored, and what it would do.
+absl::StatusOr<v1::CalibrationJob> Preview(const CallContext& call,
+                                           const v1::CreateCalibrationJobRequest& request) {
+  v1::CalibrationJob job;
+  TRUEPOSE_ASSIGN_OR_RETURN(
+      const v1::CalibrationInput input,
+      call.store.Read([&](Snapshot& snapshot) -> absl::StatusOr<v1::CalibrationInput> {
+        TRUEPOSE_ASSIGN_OR_RETURN(job, FreezeInput(snapshot, request));
+        return store::PreviewJobInput(snapshot, request.job_id(), job);
+      }));
+  TRUEPOSE_ASSIGN_OR_RETURN(*job.mutable_preview(), convert::RunPreview(input));
+  job.set_name(store::JobName(request.job_id()));
+  return job;
+}
+
+}  // namespace
+
 absl::StatusOr<v1::CalibrationJob> FreezeInput(Snapshot& snapshot,
                                                const v1::CreateCalibrationJobRequest& request) {
   TRUEPOSE_RETURN_IF_ERROR(GetLiveRobot(snapshot, request.robot(), "robot").status());
@@ -99,23 +116,6 @@ absl::StatusOr<v1::CalibrationJob> FreezeInput(Snapshot& snapshot,
   return job;
 }
 
-// The job as it would be stored, and what it would do.
-absl::StatusOr<v1::CalibrationJob> Preview(const CallContext& call,
-                                           const v1::CreateCalibrationJobRequest& request) {
-  v1::CalibrationJob job;
-  TRUEPOSE_ASSIGN_OR_RETURN(
-      const v1::CalibrationInput input,
-      call.store.Read([&](Snapshot& snapshot) -> absl::StatusOr<v1::CalibrationInput> {
-        TRUEPOSE_ASSIGN_OR_RETURN(job, FreezeInput(snapshot, request));
-        return store::PreviewJobInput(snapshot, request.job_id(), job);
-      }));
-  TRUEPOSE_ASSIGN_OR_RETURN(*job.mutable_preview(), convert::RunPreview(input));
-  job.set_name(store::JobName(request.job_id()));
-  return job;
-}
-
-}  // namespace
-
 absl::StatusOr<v1::CalibrationJob> CreateCalibrationJob(
     const CallContext& call, const v1::CreateCalibrationJobRequest& request) {
   TRUEPOSE_RETURN_IF_ERROR(CheckRequest(request));
@@ -126,9 +126,13 @@ absl::StatusOr<v1::CalibrationJob> CreateCalibrationJob(
     TRUEPOSE_ASSIGN_OR_RETURN(v1::CalibrationJob frozen, FreezeInput(transaction, request));
     frozen.set_created_by(call.caller.principal);
     frozen.set_created_by_machine(call.caller.is_machine);
-    return resource::Once<v1::CalibrationJob>(transaction, key, [&](auto& inner) {
-      return store::CreateJob(inner, request.job_id(), frozen);
-    });
+    return resource::Once<v1::CalibrationJob>(
+        transaction, key, [&](auto& inner) -> absl::StatusOr<v1::CalibrationJob> {
+          TRUEPOSE_ASSIGN_OR_RETURN(v1::CalibrationJob job,
+                                    store::CreateJob(inner, request.job_id(), frozen));
+          TRUEPOSE_RETURN_IF_ERROR(BeginCalibrating(inner, job, call.caller.principal));
+          return job;
+        });
   });
   if (job.ok()) call.engine.Wake();
   return job;

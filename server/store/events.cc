@@ -132,6 +132,18 @@ absl::StatusOr<EventBatch> EventsAfter(Snapshot& snapshot, int64_t after, const 
   return batch;
 }
 
+absl::StatusOr<bool> HasEventsToForget(Snapshot& snapshot, const EventHistory& history,
+                                       absl::Time now) {
+  TRUEPOSE_ASSIGN_OR_RETURN(
+      const int64_t count,
+      sql::QueryInt64(snapshot.sql(),
+                      "SELECT (SELECT COUNT(*) FROM (SELECT 1 FROM events WHERE written_us < $1 "
+                      "LIMIT 1) AS old) + (SELECT COUNT(*) FROM (SELECT 1 FROM events LIMIT 1 "
+                      "OFFSET $2) AS many)",
+                      absl::ToUnixMicros(now - history.age), history.count));
+  return count > 0;
+}
+
 absl::StatusOr<int64_t> ForgetEvents(Transaction& transaction, const EventHistory& history,
                                      int64_t most) {
   TRUEPOSE_ASSIGN_OR_RETURN(const int64_t last, LastToForget(transaction, history));

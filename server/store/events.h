@@ -58,6 +58,10 @@ struct EventHistory {
   int64_t count = 1'000'000;
 };
 
+// Whether there are events over the history's age or count: a look before a write.
+absl::StatusOr<bool> HasEventsToForget(Snapshot& snapshot, const EventHistory& history,
+                                       absl::Time now);
+
 // Forgets at most `most` of the oldest events that are over the history's age or count, commit by
 // commit.
 // @returns how many.

@@ -192,9 +192,7 @@ absl::StatusOr<std::vector<std::string>> LatePendingJobs(Snapshot& snapshot, abs
 
 absl::Time DeadlineOf(const v1::CalibrationJob& job) {
   if (!job.has_deadline()) return absl::InfiniteFuture();
-  const absl::Time time =
-      absl::FromUnixSeconds(job.deadline().seconds()) + absl::Nanoseconds(job.deadline().nanos());
-  return absl::FromUnixMicros(absl::ToUnixMicros(time));
+  return absl::FromUnixMicros(absl::ToUnixMicros(ToTime(job.deadline())));
 }
 
 }  // namespace truepose::store

@@ -9,6 +9,7 @@
 #include "absl/status/statusor.h"
 #include "absl/strings/str_cat.h"
 #include "absl/time/time.h"
+#include "google/protobuf/duration.pb.h"
 #include "google/protobuf/message_lite.h"
 #include "google/protobuf/timestamp.pb.h"
 #include "server/store/sql/connection.h"
@@ -27,6 +28,8 @@ absl::StatusOr<T> ReadMessage(const sql::Statement& row, int column) {
 std::string ToBlob(const google::protobuf::MessageLite& message);
 
 google::protobuf::Timestamp ToTimestamp(absl::Time time);
+absl::Duration ToDuration(const google::protobuf::Duration& duration);
+absl::Time ToTime(const google::protobuf::Timestamp& timestamp);
 
 // An entity tag of a state that was written at `revision`.
 std::string ToEtag(int64_t revision);

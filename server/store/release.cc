@@ -65,6 +65,20 @@ absl::Status FillRelease(Snapshot& snapshot, v1::Calibration& calibration) {
   return absl::OkStatus();
 }
 
+absl::StatusOr<std::optional<absl::Time>> ActivationTime(Snapshot& snapshot,
+                                                         std::string_view name) {
+  TRUEPOSE_ASSIGN_OR_RETURN(const NumberedName key, ParseCalibrationName(name));
+  TRUEPOSE_ASSIGN_OR_RETURN(
+      auto row, sql::Query(snapshot.sql(),
+                           "SELECT message FROM release_steps WHERE robot_id = $1 AND number = $2 "
+                           "AND state = $3 ORDER BY sequence DESC LIMIT 1",
+                           key.robot_id, key.number, static_cast<int>(v1::ACTIVE)));
+  TRUEPOSE_ASSIGN_OR_RETURN(const bool found, row->Step());
+  if (!found) return std::optional<absl::Time>();
+  TRUEPOSE_ASSIGN_OR_RETURN(const auto step, ReadMessage<v1::ReleaseStep>(*row, 0));
+  return std::optional(ToTime(step.time()));
+}
+
 absl::StatusOr<std::optional<std::string>> PreviouslyActive(Snapshot& snapshot,
                                                             const std::string& robot_id,
                                                             std::string_view active) {

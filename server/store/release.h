@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "absl/status/statusor.h"
+#include "absl/time/time.h"
 #include "server/store/transaction.h"
 #include "truepose/v1/calibration.pb.h"
 
@@ -22,6 +23,9 @@ absl::StatusOr<v1::Calibration> AppendReleaseStep(Transaction& transaction, std:
 // Sets state, release_steps, revision and etag of a calibration that was read; DRAFT without a
 // step.
 absl::Status FillRelease(Snapshot& snapshot, v1::Calibration& calibration);
+
+// When the calibration became active for the last time; nothing when it never did.
+absl::StatusOr<std::optional<absl::Time>> ActivationTime(Snapshot& snapshot, std::string_view name);
 
 // The calibration that was active on the robot before `active` became so; nothing when there was
 // none.

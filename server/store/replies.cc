@@ -31,6 +31,16 @@ absl::Status KeepReply(Transaction& transaction, const RequestKey& key, std::str
                   absl::ToUnixMicros(transaction.now()), sql::BlobView{reply});
 }
 
+absl::StatusOr<bool> HasRepliesToForget(Snapshot& snapshot, absl::Time now) {
+  TRUEPOSE_ASSIGN_OR_RETURN(
+      const int64_t count,
+      sql::QueryInt64(snapshot.sql(),
+                      "SELECT COUNT(*) FROM (SELECT 1 FROM replies WHERE written_us < $1 LIMIT 1) "
+                      "AS old",
+                      absl::ToUnixMicros(now - kKeepReplies)));
+  return count > 0;
+}
+
 absl::StatusOr<int64_t> ForgetReplies(Transaction& transaction, int64_t most) {
   const int64_t oldest = absl::ToUnixMicros(transaction.now() - kKeepReplies);
   TRUEPOSE_ASSIGN_OR_RETURN(

@@ -29,6 +29,9 @@ absl::StatusOr<std::optional<std::string>> FindReply(Snapshot& snapshot, const R
 // In the transaction of the effect itself.
 absl::Status KeepReply(Transaction& transaction, const RequestKey& key, std::string_view reply);
 
+// Whether there are answers older than kKeepReplies: a look before a write.
+absl::StatusOr<bool> HasRepliesToForget(Snapshot& snapshot, absl::Time now);
+
 // Forgets at most `most` answers older than kKeepReplies. @returns how many.
 absl::StatusOr<int64_t> ForgetReplies(Transaction& transaction, int64_t most);
 

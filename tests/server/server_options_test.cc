@@ -19,9 +19,10 @@ TEST(ServerOptionsTest, EveryFaultIsNamed) {
   options.handler_threads = 1000;
   options.compute_threads = -1;
   options.drain = -absl::Seconds(1);
-  EXPECT_THAT(options.Validate(),
-              HasFaultsAt(std::vector<std::string>{"listen", "database", "workers",
-                                                   "handler_threads", "compute_threads", "drain"}));
+  options.schedule = absl::ZeroDuration();
+  EXPECT_THAT(options.Validate(), HasFaultsAt(std::vector<std::string>{
+                                      "listen", "database", "workers", "handler_threads",
+                                      "compute_threads", "drain", "schedule"}));
 }
 
 // Would catch tokens that go with the process, and two options of which one is lost.

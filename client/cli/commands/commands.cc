@@ -13,6 +13,10 @@ void AddAllCommands(const Command& root) {
   AddCompensate(root);
   AddJob(root);
   AddCalibration(root);
+  AddDrift(root);
+  AddRecalibration(root);
+  AddPolicy(root);
+  AddRobotEvent(root);
   AddSimulate(root);
   AddModel(root);
   AddReproduce(root);

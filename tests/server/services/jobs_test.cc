@@ -156,17 +156,15 @@ TEST_F(JobsTest, ValidateOnlyRefusesWhatACreateRefuses) {
 }
 
 // Would catch fields of the request that don't reach the job.
-TEST_F(JobsTest, CreateKeepsPriorityDeadlineAndRequest) {
+TEST_F(JobsTest, CreateKeepsPriorityAndDeadline) {
   AddSealedSession(kSession1, "ur10");
   auto request = Request(kJob1, {kSession1});
   request.set_priority(40);
   request.mutable_deadline()->set_seconds(4'000'000'000);
-  request.set_recalibration_request("robots/ur10/recalibrationRequests/2");
   const auto job = CreateCalibrationJob(call(), request);
   ASSERT_THAT(job, IsOk());
   EXPECT_EQ(job->priority(), 40);
   EXPECT_EQ(job->deadline().seconds(), 4'000'000'000);
-  EXPECT_EQ(job->recalibration_request(), "robots/ur10/recalibrationRequests/2");
   EXPECT_NE(job->etag(), "");
   request.set_job_id(kJob2);
   request.set_priority(-101);

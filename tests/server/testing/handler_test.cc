@@ -37,14 +37,15 @@ const v1::Calibration& ExampleCalibration() {
 
 }  // namespace
 
-HandlerTest::HandlerTest() {
-  auto store = store::Store::Open({.path = ":memory:"});
+HandlerTest::HandlerTest(const store::Clock* clock) {
+  auto store = store::Store::Open({.path = ":memory:", .clock = clock});
   EXPECT_THAT(store, IsOk());
   store_ = *std::move(store);
   const jobs::Runner never = [](const v1::CalibrationInput&, const jobs::RunnerHooks&) {
     return absl::InternalError("no job runs in tests of handlers");
   };
-  engine_ = std::make_unique<jobs::JobEngine>(*store_, never, jobs::EngineOptions());
+  engine_ =
+      std::make_unique<jobs::JobEngine>(*store_, never, jobs::EngineOptions(), store_->clock());
   call_.reset(new services::CallContext{*store_, *engine_});
 }
 
@@ -66,6 +67,10 @@ void HandlerTest::AddSimulatedSession(const std::string& session_id, const std::
   ASSERT_THAT(services::CreateSession(
                   call(), SessionRequest(session_id, absl::StrCat("robots/", robot_id))),
               IsOk());
+  AddReadingsAndSeal(session_id, poses);
+}
+
+void HandlerTest::AddReadingsAndSeal(const std::string& session_id, int poses) {
   v1::AppendReadingsRequest batch;
   batch.set_session(absl::StrCat("sessions/", session_id));
   *batch.mutable_readings() = SimulatedSession(poses, 1).readings();

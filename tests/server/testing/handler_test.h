@@ -22,7 +22,8 @@ absl::StatusOr<v1::AppendReadingsResponse> AppendAndWait(services::AppendStream&
 
 class HandlerTest : public ::testing::Test {
  protected:
-  HandlerTest();
+  // `clock` of store and engine; nullptr = the system's.
+  explicit HandlerTest(const store::Clock* clock = nullptr);
 
   const services::CallContext& call() const { return *call_; }
   store::Store& store() { return *store_; }
@@ -35,6 +36,8 @@ class HandlerTest : public ::testing::Test {
                         int readings = 3);
   // Readings that a slightly wrong six-axis robot would give.
   void AddSimulatedSession(const std::string& session_id, const std::string& robot_id, int poses);
+  // The same for a session that is there and empty.
+  void AddReadingsAndSeal(const std::string& session_id, int poses);
   // A real calibration over kCalibrationPoses rows, stored as that of `robot_id` from a sealed
   // session, as the engine would.
   v1::Calibration AddCalibration(const std::string& robot_id, const std::string& session_id,

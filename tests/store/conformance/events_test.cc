@@ -106,7 +106,15 @@ TEST_P(EventsTest, AFilterLeavesOutOthersAndGoesPastThem) {
 TEST_P(EventsTest, TheForgottenIsOutOfRange) {
   Commit({"a"});
   const int64_t first = After(0)->revision;
-  clock_.Advance(absl::Hours(25));
+  const auto has_old = [&] {
+    return Read([&](Snapshot& snapshot) {
+      return HasEventsToForget(snapshot, EventHistory{}, clock_.Now());
+    });
+  };
+  clock_.Advance(absl::Hours(23));
+  EXPECT_FALSE(*has_old());
+  clock_.Advance(absl::Hours(2));
+  EXPECT_TRUE(*has_old());
   Commit({"b"});
   const auto forgotten = Write(
       [](Transaction& transaction) { return ForgetEvents(transaction, EventHistory{}, kAll); });
@@ -119,6 +127,13 @@ TEST_P(EventsTest, TheForgottenIsOutOfRange) {
 // Would catch a bound on the number that keeps one too many or cuts a commit.
 TEST_P(EventsTest, TheHistoryHoldsAtMostItsNumber) {
   for (const char* name : {"a", "b", "c", "d"}) Commit({name});
+  const auto has_more_than = [&](int64_t count) {
+    return *Read([&](Snapshot& snapshot) {
+      return HasEventsToForget(snapshot, {.age = absl::Hours(24), .count = count}, clock_.Now());
+    });
+  };
+  EXPECT_TRUE(has_more_than(3));
+  EXPECT_FALSE(has_more_than(4));
   ASSERT_TRUE(Write([](Transaction& transaction) {
                 return ForgetEvents(transaction, {.age = absl::Hours(24), .count = 2}, kAll);
               }).ok());
@@ -172,8 +187,13 @@ TEST_P(EventsTest, AnswersAreForgottenAfterSevenDays) {
     return Write([](Transaction& transaction) { return ForgetReplies(transaction, 10); });
   };
   clock_.Advance(absl::Hours(7 * 24 - 1));
+  const auto has_old = [&] {
+    return *Read([&](Snapshot& snapshot) { return HasRepliesToForget(snapshot, clock_.Now()); });
+  };
   EXPECT_EQ(*forget(), 0);
+  EXPECT_FALSE(has_old());
   clock_.Advance(absl::Hours(2));
+  EXPECT_TRUE(has_old());
   EXPECT_EQ(*forget(), 1);
 }
 

@@ -1,0 +1,97 @@
+#include "server/services/recalibration_schedule.h"
+
+#include "tests/server/services/recalibration_testing.h"
+
+namespace truepose::services {
+namespace {
+
+using testing::HasFields;
+using testing::IsOk;
+
+constexpr char kThirtyDays[] = "interval { seconds: 2592000 }";
+
+class RecalibrationScheduleTest : public RecalibrationFixture {
+ protected:
+  int Raise() {
+    const auto raised = RaiseDueRequests(store());
+    EXPECT_THAT(raised, IsOk());
+    return raised.value_or(-1);
+  }
+
+  void DeclineOpen() {
+    v1::DeclineRecalibrationRequest request;
+    request.set_name(Open().name());
+    request.set_reason("no time");
+    ASSERT_THAT(DeclineRecalibration(call(), request), IsOk());
+  }
+};
+
+// Would catch an interval that is over and raises nothing, or a request with each look.
+TEST_F(RecalibrationScheduleTest, AnIntervalRaisesOneRequest) {
+  SetPolicy(kThirtyDays);
+  clock_.Advance(absl::Hours(24 * 30 - 1));
+  EXPECT_EQ(Raise(), 0);
+  clock_.Advance(absl::Hours(1));
+  EXPECT_EQ(Raise(), 1);
+  EXPECT_THAT(Open(), HasFields("cause: CAUSE_INTERVAL raised_by: "
+                                "'robots/ur10/recalibrationPolicies/default'"));
+  EXPECT_NE(Open().pose_set(), "");
+  EXPECT_EQ(Raise(), 0);
+  DeclineOpen();
+  EXPECT_EQ(Raise(), 0) << "declined is declined";
+  clock_.Advance(absl::Hours(24 * 30));
+  EXPECT_EQ(Raise(), 1) << "the next interval is another cause";
+}
+
+// Would catch a robot that is asked twice for the same: once by a person, once by the clock.
+TEST_F(RecalibrationScheduleTest, ARequestThatWasOpenCounts) {
+  SetPolicy(kThirtyDays);
+  clock_.Advance(absl::Hours(24 * 29));
+  ASSERT_THAT(Ask(kRequest1), IsOk());
+  clock_.Advance(absl::Hours(48));
+  EXPECT_EQ(Raise(), 0);
+  DeclineOpen();
+  EXPECT_EQ(Raise(), 0);
+}
+
+// Would catch an interval that is counted from the first calibration for ever.
+TEST_F(RecalibrationScheduleTest, AnActivationBeginsTheIntervalAnew) {
+  SetPolicy(kThirtyDays);
+  clock_.Advance(absl::Hours(24 * 29));
+  AddSimulatedSession(testing::kSession2, "ur10", testing::kCalibrationPoses);
+  Activate(AddCalibration("ur10", testing::kSession2, testing::kJob2).name());
+  clock_.Advance(absl::Hours(24 * 29));
+  EXPECT_EQ(Raise(), 0);
+  clock_.Advance(absl::Hours(24));
+  EXPECT_EQ(Raise(), 1);
+}
+
+// Would catch a policy of one robot that keeps the others waiting, and lists that end after a page.
+TEST_F(RecalibrationScheduleTest, PoliciesOfManyRobots) {
+  for (int i = 0; i < 150; ++i) SetPolicy("on_failed_check: true", absl::StrCat("p", i));
+  SetPolicy(kThirtyDays, "last");
+  clock_.Advance(absl::Hours(24 * 31));
+  EXPECT_EQ(Raise(), 1);
+}
+
+// Would catch a request that stays open for ever, or that expires before its time or twice.
+TEST_F(RecalibrationScheduleTest, RequestsExpire) {
+  SetPolicy("expire_after { seconds: 3600 }");
+  ASSERT_THAT(Ask(kRequest1), IsOk());
+  ASSERT_THAT(Acknowledge(kRequest1), IsOk());
+  clock_.Advance(absl::Minutes(59));
+  EXPECT_EQ(*ExpireRequests(store()), 0);
+  clock_.Advance(absl::Minutes(1));
+  EXPECT_EQ(*ExpireRequests(store()), 1);
+  EXPECT_EQ(*ExpireRequests(store()), 0);
+  const v1::RecalibrationRequest expired = Stored(kRequest1);
+  EXPECT_EQ(expired.state(), v1::REQUEST_EXPIRED);
+  EXPECT_EQ(expired.steps_size(), 3);
+  EXPECT_THAT(Ask(kRequest2), IsOk());
+  clock_.Advance(absl::Hours(2));
+  EXPECT_THAT(Decline(kRequest2), IsOk());
+  EXPECT_EQ(*ExpireRequests(store()), 0) << "what has ended doesn't expire";
+}
+
+}  // namespace
+}  // namespace truepose::services
