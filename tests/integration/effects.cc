@@ -132,6 +132,26 @@ int64_t ChangeInstruments(const std::string& address, const Stop& stop) {
   return count;
 }
 
+void ChangeOneInstrument(const std::string& address, int writer, int changes, int name_bytes) {
+  using Stub = v1::PlantService::Stub;
+  const auto plant = v1::PlantService::NewStub(ImpatientChannel(address));
+  const auto request_id = [&](int change) { return Uuid(40'000'000 + 100'000 * writer + change); };
+  v1::CreateInstrumentRequest create;
+  create.set_instrument_id(absl::StrCat("w-", writer));
+  create.set_request_id(request_id(0));
+  const v1::Instrument instrument = Ask(*plant, &Stub::CreateInstrument, create);
+  for (int change = 1; change < changes; ++change) {
+    v1::UpdateInstrumentRequest update;
+    update.mutable_instrument()->set_name(instrument.name());
+    std::string name = absl::StrCat(change, "-");
+    name.resize(std::max<size_t>(name.size(), name_bytes), 'x');
+    update.mutable_instrument()->set_display_name(name);
+    update.mutable_update_mask()->add_paths("display_name");
+    update.set_request_id(request_id(change));
+    Ask(*plant, &Stub::UpdateInstrument, update);
+  }
+}
+
 int64_t ActivateInTurn(const std::string& address, const Stop& stop) {
   const auto stub = v1::CalibrationService::NewStub(ImpatientChannel(address));
   int64_t count = 0;

@@ -34,6 +34,9 @@ int64_t UploadReadings(const std::string& address, int source, int session, cons
 // Creates, changes, deletes and undeletes instruments "i-1", "i-2", ...
 // @returns how many went through all four.
 int64_t ChangeInstruments(const std::string& address, const Stop& stop);
+// Creates instrument "w-`writer`" and changes it until it has had `changes` events; its display
+// name is as long as asked for. Writers count from 0, at most 99.
+void ChangeOneInstrument(const std::string& address, int writer, int changes, int name_bytes = 8);
 // Makes calibrations 1 and 2 active in turn, which both have to be approved. @returns how often.
 int64_t ActivateInTurn(const std::string& address, const Stop& stop);
 // Creates jobs over `session` and waits for each. @returns their names.

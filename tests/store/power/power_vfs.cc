@@ -30,6 +30,9 @@ int Read(sqlite3_file* file, void* out, int size, sqlite3_int64 offset) {
 int Write(sqlite3_file* file, const void* bytes, int size, sqlite3_int64 offset) {
   PowerFile& own = *Of(file);
   const std::string_view text(static_cast<const char*>(bytes), size);
+  sqlite3_int64 length = 0;
+  Real(file).xFileSize(own.real(), &length);
+  if (!own.disk->HasRoomFor(offset + size - length)) return SQLITE_FULL;
   if (own.inode != nullptr && !own.disk->Write(own.inode, offset, text)) return SQLITE_IOERR_WRITE;
   return Real(file).xWrite(own.real(), bytes, size, offset);
 }

@@ -28,6 +28,16 @@ bool SimulatedDisk::is_off() const {
   return off_;
 }
 
+void SimulatedDisk::SetFull(bool full) {
+  const std::lock_guard lock(mutex_);
+  full_ = full;
+}
+
+bool SimulatedDisk::HasRoomFor(int64_t growth) const {
+  const std::lock_guard lock(mutex_);
+  return !full_ || growth <= 0;
+}
+
 bool SimulatedDisk::Begin(bool* last) {
   if (off_) return false;
   *last = changes_left_ > 0 && --changes_left_ == 0;

@@ -37,9 +37,12 @@ class SimulatedDisk {
   // The power goes with the `change`-th change from now, which is still under way then. 0 = never.
   void CutPowerAt(int64_t change);
   bool is_off() const;
+  // A full disk still takes writes within a file, but none that makes it longer.
+  void SetFull(bool full);
 
   // A file that is there already is taken as durable.
   Inode* Open(const std::string& path, bool may_create);
+  bool HasRoomFor(int64_t growth) const;
   // Each is one change. false: the power is off, nothing happens any more.
   bool Write(Inode* inode, int64_t offset, std::string_view bytes);
   bool Truncate(Inode* inode, int64_t size);
@@ -67,7 +70,7 @@ class SimulatedDisk {
   mutable std::mutex mutex_;
   std::mt19937_64 random_;
   int64_t changes_left_ = 0;  // 0 = no cut is planned
-  bool off_ = false;
+  bool off_ = false, full_ = false;
   std::vector<std::unique_ptr<Inode>> inodes_;
   Folder names_, durable_names_;
   std::vector<Rename> pending_names_;
