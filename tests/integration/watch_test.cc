@@ -1,10 +1,14 @@
 // The watch of a plant over a real server: ordered, without gap or repeat, resumable.
 #include <grpcpp/grpcpp.h>
 
+#include <algorithm>
 #include <map>
 #include <thread>
 
 #include "absl/strings/str_cat.h"
+#include "absl/time/clock.h"
+#include "client/status.h"
+#include "core/base/error_metadata.h"
 #include "tests/integration/server_fixture.h"
 #include "tests/server/testing/examples.h"
 #include "tests/server/testing/expect_status.h"
@@ -46,10 +50,12 @@ class WatchTest : public testing::ServerFixture {
   }
 
   // Instruments are the quickest resources to change.
-  void Rename(const std::string& id, int to) {
+  void Rename(const std::string& id, int to, size_t bytes = 0) {
     v1::UpdateInstrumentRequest request;
     request.mutable_instrument()->set_name(absl::StrCat("instruments/", id));
-    request.mutable_instrument()->set_display_name(absl::StrCat(to));
+    std::string name = absl::StrCat(to);
+    name.resize(std::max(bytes, name.size()), ' ');
+    request.mutable_instrument()->set_display_name(name);
     request.mutable_update_mask()->add_paths("display_name");
     grpc::ClientContext context;
     v1::Instrument reply;
@@ -126,6 +132,97 @@ TEST_F(WatchTest, RefusesWhatItsHistoryDoesNotHold) {
   follower.resume = 1'000'000;
   follower.epoch = "0123";
   EXPECT_EQ(Follow(follower, "never").error_code(), grpc::StatusCode::OUT_OF_RANGE);
+}
+
+// A connection that takes little ahead of its reader.
+std::shared_ptr<grpc::Channel> NarrowChannel(const std::string& address) {
+  grpc::ChannelArguments arguments;
+  arguments.SetInt(GRPC_ARG_HTTP2_STREAM_LOOKAHEAD_BYTES, 65'536);
+  arguments.SetInt(GRPC_ARG_HTTP2_BDP_PROBE, 0);
+  arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
+  return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
+}
+
+// Takes one message, nothing for a while, then all that comes. @returns how the watch ended.
+absl::Status Dawdle(const std::string& address, Follower& follower) {
+  v1::WatchRequest request;
+  request.set_after_revision(follower.resume);
+  request.set_epoch(follower.epoch);
+  grpc::ClientContext context;
+  const auto stub = v1::WatchService::NewStub(NarrowChannel(address));
+  const auto reader = stub->Watch(&context, request);
+  v1::WatchResponse response;
+  if (reader->Read(&response)) follower.Take(response);
+  absl::SleepFor(absl::Milliseconds(1'400));  // more than the stall, less than twice that
+  while (reader->Read(&response)) follower.Take(response);
+  return client::FromGrpcStatus(reader->Finish(), address);
+}
+
+// Would catch a slow reader that is cut without being told where to go on, or told wrongly.
+TEST_F(WatchTest, ASlowReaderIsToldWhereToResume) {
+  options_.watch_stall = absl::Seconds(1);
+  Restart();
+  AddInstrument("a");
+  Follower follower;
+  Rename("a", 1);
+  ASSERT_TRUE(Follow(follower, "1").ok());
+  const int seen = follower.events;
+  for (int i = 2; i <= 400; ++i) Rename("a", i, 3'000);
+  Rename("a", 401);
+  absl::Status status;
+  // A machine that is busy for a second makes it so late that the call is cancelled.
+  for (int i = 0; i < 10 && !absl::IsResourceExhausted(status); ++i) {
+    Follower slow = follower;
+    status = Dawdle(options_.listen, slow);
+    if (absl::IsResourceExhausted(status)) follower = slow;
+  }
+  ASSERT_THAT(status, testing::HasCode(absl::StatusCode::kResourceExhausted));
+  EXPECT_EQ(ErrorMetadataOf(status)["resume_revision"], absl::StrCat(follower.resume));
+  EXPECT_LT(follower.events, seen + 400) << "it was cut";
+  ASSERT_TRUE(Follow(follower, "401").ok());
+  EXPECT_EQ(follower.events, seen + 400);
+}
+
+// Would catch progress that never comes, comes again and again without news, or is kept as history.
+TEST_F(WatchTest, ProgressOfARunningJobComesBeside) {
+  runner_ = [](const v1::CalibrationInput&, const jobs::RunnerHooks& hooks) {
+    v1::JobProgress progress;
+    progress.set_fraction(0.5);
+    hooks.on_progress(progress);
+    while (!hooks.is_cancelled()) absl::SleepFor(absl::Milliseconds(2));
+    return absl::StatusOr<v1::Calibration>(absl::CancelledError("asked to end"));
+  };
+  Restart();
+  testing::Import(NewClient(), "arm", testing::Uuid(1), testing::MeasuringSession(20, 1));
+  ASSERT_THAT(NewClient().CreateCalibrationJob(
+                  testing::JobRequest(testing::Uuid(1), "arm", testing::Uuid(1))),
+              IsOk());
+  const std::string job = absl::StrCat("jobs/", testing::Uuid(1));
+  v1::WatchRequest request;
+  request.set_progress(true);
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(30));
+  const auto stub = v1::WatchService::NewStub(Channel());
+  const auto reader = stub->Watch(&context, request);
+  v1::WatchResponse response;
+  int told = 0;
+  for (bool ended = false; !ended && reader->Read(&response);) {
+    for (const v1::WatchedProgress& one : response.progress()) {
+      EXPECT_EQ(one.job(), job);
+      EXPECT_EQ(one.progress().fraction(), 0.5);
+      EXPECT_EQ(response.events_size(), 0);
+      EXPECT_GT(response.revision(), 0) << "a watch may resume from here";
+      ++told;
+      v1::CancelCalibrationJobRequest cancel;
+      cancel.set_name(job);
+      EXPECT_THAT(NewClient().CancelCalibrationJob(cancel), IsOk());
+    }
+    for (const v1::WatchEvent& event : response.events())
+      ended = ended || event.job().state() == v1::CANCELLED;
+  }
+  EXPECT_EQ(told, 1);
+  context.TryCancel();
+  reader->Finish();
 }
 
 }  // namespace
