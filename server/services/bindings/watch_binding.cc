@@ -1,3 +1,4 @@
+#include <string>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -41,12 +42,12 @@ struct Watcher {
   }
 
   absl::Status TooSlow() const {
-    const std::string resume = absl::StrCat(watch->resume_revision());
+    const std::string revision = absl::StrCat(watch->resume_revision());
     return WithErrorMetadata(
         store::Refusal(absl::StatusCode::kResourceExhausted, "after_revision",
                        "a reader that is too slow",
-                       absl::StrCat("a watch that resumes from revision ", resume)),
-        "resume_revision", resume);
+                       absl::StrCat("a watch that resumes from revision ", revision)),
+        "resume_revision", revision);
   }
 };
 
