@@ -87,19 +87,33 @@ class JobEngine::State {
     return job;
   }
 
-  absl::StatusOr<v1::CalibrationJob> Cancel(const std::string& name) {
+  absl::StatusOr<v1::CalibrationJob> Cancel(const std::string& name, const Within& within) {
     context_.At("before_cancel");
-    TRUEPOSE_ASSIGN_OR_RETURN(const v1::CalibrationJob job,
-                              store_.Write([&](Transaction& transaction) {
-                                auto asked = CancelOne(transaction, name);
-                                context_.At("cancel_written");
-                                return asked;
-                              }));
+    TRUEPOSE_ASSIGN_OR_RETURN(
+        const v1::CalibrationJob job, store_.Write([&](Transaction& transaction) {
+          const Effect cancel = [&] { return CancelOne(transaction, name); };
+          auto asked = within ? within(transaction, cancel) : cancel();
+          context_.At("cancel_written");
+          return asked;
+        }));
     context_.At("after_cancel");
     // After the commit: a worker that began meanwhile finds the request in the store.
     if (const std::shared_ptr<RunningJob> running = running_.Find(name)) running->AskToEnd();
     hub_.Changed(name);
     return job;
+  }
+
+  std::vector<v1::WatchedProgress> Progress(std::string_view robot) const {
+    std::vector<v1::WatchedProgress> told;
+    for (const std::shared_ptr<RunningJob>& running : running_.All()) {
+      const v1::CalibrationJob& job = running->claim().job;
+      v1::JobProgress progress = running->Progress();
+      if ((!robot.empty() && job.robot() != robot) || progress.ByteSizeLong() == 0) continue;
+      v1::WatchedProgress& one = told.emplace_back();
+      one.set_job(job.name());
+      *one.mutable_progress() = std::move(progress);
+    }
+    return told;
   }
 
   absl::StatusOr<std::unique_ptr<Subscription>> Watch(const std::string& name,
@@ -180,8 +194,13 @@ absl::StatusOr<v1::CalibrationJob> JobEngine::Get(const std::string& name) {
   return state_->Get(name);
 }
 
-absl::StatusOr<v1::CalibrationJob> JobEngine::Cancel(const std::string& name) {
-  return state_->Cancel(name);
+absl::StatusOr<v1::CalibrationJob> JobEngine::Cancel(const std::string& name,
+                                                     const Within& within) {
+  return state_->Cancel(name, within);
+}
+
+std::vector<v1::WatchedProgress> JobEngine::Progress(std::string_view robot) const {
+  return state_->Progress(robot);
 }
 
 absl::StatusOr<std::unique_ptr<Subscription>> JobEngine::Watch(const std::string& name,

@@ -18,6 +18,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
@@ -25,6 +26,7 @@
 #include "server/jobs/runner.h"
 #include "server/jobs/watch.h"
 #include "server/store/store.h"
+#include "truepose/v1/watch.pb.h"
 
 namespace truepose::jobs {
 
@@ -84,7 +86,14 @@ class JobEngine {
   // PENDING becomes CANCELLED at once. RUNNING keeps running until it notices, with
   // cancel_requested set, and never becomes SUCCEEDED after that. CANCELLED is returned as it is.
   // @returns kNotFound; kFailedPrecondition for SUCCEEDED and FAILED.
-  absl::StatusOr<v1::CalibrationJob> Cancel(const std::string& name);
+  // `within`, when given, is called in the transaction with the cancellation as its effect, and
+  // answers for it: where a request id is looked up.
+  using Effect = std::function<absl::StatusOr<v1::CalibrationJob>()>;
+  using Within =
+      std::function<absl::StatusOr<v1::CalibrationJob>(store::Transaction&, const Effect&)>;
+  absl::StatusOr<v1::CalibrationJob> Cancel(const std::string& name, const Within& within = {});
+  // Of the jobs that run now and have told any; `robot` = "" for all robots. In memory only.
+  std::vector<v1::WatchedProgress> Progress(std::string_view robot) const;
   // @returns kNotFound; kUnavailable after Stop().
   absl::StatusOr<std::unique_ptr<Subscription>> Watch(const std::string& name,
                                                       WatchCallbacks callbacks);

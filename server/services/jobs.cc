@@ -122,17 +122,18 @@ absl::StatusOr<v1::CalibrationJob> CreateCalibrationJob(
   if (request.validate_only()) return Preview(call, request);
   const store::RequestKey key =
       resource::KeyOf(call.caller.principal, request, request.request_id());
-  auto job = call.store.Write([&](Transaction& transaction) -> absl::StatusOr<v1::CalibrationJob> {
+  const auto create = [&](Transaction& transaction) -> absl::StatusOr<v1::CalibrationJob> {
     TRUEPOSE_ASSIGN_OR_RETURN(v1::CalibrationJob frozen, FreezeInput(transaction, request));
     frozen.set_created_by(call.caller.principal);
     frozen.set_created_by_machine(call.caller.is_machine);
-    return resource::Once<v1::CalibrationJob>(
-        transaction, key, [&](auto& inner) -> absl::StatusOr<v1::CalibrationJob> {
-          TRUEPOSE_ASSIGN_OR_RETURN(v1::CalibrationJob job,
-                                    store::CreateJob(inner, request.job_id(), frozen));
-          TRUEPOSE_RETURN_IF_ERROR(BeginCalibrating(inner, job, call.caller.principal));
-          return job;
-        });
+    TRUEPOSE_ASSIGN_OR_RETURN(v1::CalibrationJob job,
+                              store::CreateJob(transaction, request.job_id(), frozen));
+    TRUEPOSE_RETURN_IF_ERROR(BeginCalibrating(transaction, job, call.caller.principal));
+    return job;
+  };
+  // All of it once: a repeat gets its answer also when the robot was deleted meanwhile.
+  auto job = call.store.Write([&](Transaction& transaction) {
+    return resource::Once<v1::CalibrationJob>(transaction, key, create);
   });
   if (job.ok()) call.engine.Wake();
   return job;
@@ -153,7 +154,11 @@ absl::StatusOr<v1::ListCalibrationJobsResponse> ListCalibrationJobs(
 
 absl::StatusOr<v1::CalibrationJob> CancelCalibrationJob(
     const CallContext& call, const v1::CancelCalibrationJobRequest& request) {
-  return call.engine.Cancel(request.name());
+  const store::RequestKey key =
+      resource::KeyOf(call.caller.principal, request, request.request_id());
+  return call.engine.Cancel(request.name(), [&](Transaction& transaction, const auto& cancel) {
+    return resource::Once<v1::CalibrationJob>(transaction, key, [&](auto&) { return cancel(); });
+  });
 }
 
 absl::StatusOr<std::unique_ptr<jobs::Subscription>> WatchCalibrationJob(

@@ -14,9 +14,10 @@ namespace {
 
 using store::Snapshot;
 
-// A stalled watcher holds two messages at most: the one on its way and the one that waits.
+// A stalled watcher holds one message, as an object and as bytes on their way, so this is what 200 of
+// them cost.
 constexpr int kMostEvents = 200;
-constexpr int64_t kMostBytes = 48 * 1024;
+constexpr int64_t kMostBytes = 16 * 1024;
 
 void CheckKinds(const v1::WatchRequest& request, FaultList& faults) {
   for (int i = 0; i < request.kinds_size(); ++i) {

@@ -48,7 +48,7 @@ v1::CreateCalibrationJobRequest JobRequest(const std::string& job_id, const std:
   return request;
 }
 
-ServerFixture::ServerFixture() {
+ServerFixture::ServerFixture() : runner_(server::CalibrationRunner()) {
   options_.listen = absl::StrCat("unix:", folder_.File("s.sock"));
   options_.database = folder_.File("t.db");
   options_.dev_open = true;  // tests of tokens: authenticated_fixture.h
@@ -57,7 +57,7 @@ ServerFixture::ServerFixture() {
 
 void ServerFixture::Restart() {
   server_.reset();
-  auto server = server::Server::Start(options_, server::CalibrationRunner());
+  auto server = server::Server::Start(options_, runner_);
   ASSERT_THAT(server, IsOk());
   server_ = *std::move(server);
 }

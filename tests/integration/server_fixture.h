@@ -7,6 +7,7 @@
 #include "client/client.h"
 #include "convert/run.h"
 #include "gtest/gtest.h"
+#include "server/jobs/runner.h"
 #include "server/server.h"
 #include "tests/server/testing/temp_dir.h"
 
@@ -35,6 +36,7 @@ class ServerFixture : public ::testing::Test {
   client::Client NewClient() const;
 
   server::ServerOptions options_;
+  jobs::Runner runner_;  // of the next Restart
 
  private:
   TempDir folder_;

@@ -12,6 +12,8 @@
 #include <sstream>
 #include <thread>
 
+#include "absl/time/clock.h"
+
 namespace truepose::testing {
 namespace {
 
@@ -31,7 +33,8 @@ ServerProcess::ServerProcess(const TempDir& folder, const std::vector<std::strin
                              Access access)
     : ready_file_(folder.File("ready")),
       output_file_(folder.File("output")),
-      address_("unix:" + folder.File("s.sock")) {
+      address_("unix:" + folder.File("s.sock")),
+      started_(absl::Now()) {
   std::filesystem::remove(ready_file_);
   // The test's own arguments come last, so that they win.
   std::vector<std::string> words = {TRUEPOSED, "--listen", address_, "--ready-file", ready_file_};
@@ -52,11 +55,20 @@ bool ServerProcess::HasEnded() {
 }
 
 bool ServerProcess::WaitUntilReady() {
-  for (int i = 0; i < 6000 && !HasEnded(); ++i) {
-    if (std::filesystem::exists(ready_file_)) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  while (!HasEnded() && absl::Now() - started_ < absl::Seconds(30)) {
+    if (std::filesystem::exists(ready_file_)) {
+      ready_after_ = absl::Now() - started_;
+      return true;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   return false;
+}
+
+int64_t ServerProcess::ResidentBytes() const {
+  int64_t size = 0, resident = 0;
+  std::ifstream("/proc/" + std::to_string(pid_) + "/statm") >> size >> resident;
+  return resident * sysconf(_SC_PAGESIZE);
 }
 
 void ServerProcess::Kill() {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "absl/time/time.h"
 #include "tests/server/testing/temp_dir.h"
 
 namespace truepose::testing {
@@ -25,6 +26,10 @@ class ServerProcess {
 
   // Waits until calls are served. false: the process ended or half a minute passed.
   bool WaitUntilReady();
+  // From its start until WaitUntilReady saw it ready.
+  absl::Duration ready_after() const { return ready_after_; }
+  // Memory of the process that is in use now (its resident set), bytes.
+  int64_t ResidentBytes() const;
   const std::string& address() const { return address_; }
 
   // kill -9, and waits until it is gone.
@@ -39,6 +44,8 @@ class ServerProcess {
   bool HasEnded();
 
   const std::string ready_file_, output_file_, address_;
+  const absl::Time started_;
+  absl::Duration ready_after_;
   pid_t pid_ = 0;
   int status_ = 0;
   bool ended_ = false;

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "absl/strings/str_cat.h"
+#include "absl/time/clock.h"
 #include "client/status.h"
 #include "core/base/error_metadata.h"
 #include "tests/integration/server_fixture.h"
@@ -153,6 +154,48 @@ TEST_F(WatchTest, CutsASlowReaderWithTheRevisionToResumeFrom) {
   const int seen = follower.events;
   ASSERT_TRUE(Follow(follower, "3").ok());
   EXPECT_EQ(follower.events - seen, 1);
+}
+
+// Would catch progress that never comes, comes again and again without news, or is kept as history.
+TEST_F(WatchTest, ProgressOfARunningJobComesBeside) {
+  runner_ = [](const v1::CalibrationInput&, const jobs::RunnerHooks& hooks) {
+    v1::JobProgress progress;
+    progress.set_fraction(0.5);
+    hooks.on_progress(progress);
+    while (!hooks.is_cancelled()) absl::SleepFor(absl::Milliseconds(2));
+    return absl::StatusOr<v1::Calibration>(absl::CancelledError("asked to end"));
+  };
+  Restart();
+  testing::Import(NewClient(), "arm", testing::Uuid(1), testing::MeasuringSession(20, 1));
+  ASSERT_THAT(NewClient().CreateCalibrationJob(
+                  testing::JobRequest(testing::Uuid(1), "arm", testing::Uuid(1))),
+              IsOk());
+  const std::string job = absl::StrCat("jobs/", testing::Uuid(1));
+  v1::WatchRequest request;
+  request.set_progress(true);
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(30));
+  const auto stub = v1::WatchService::NewStub(Channel());
+  const auto reader = stub->Watch(&context, request);
+  v1::WatchResponse response;
+  int told = 0;
+  for (bool ended = false; !ended && reader->Read(&response);) {
+    for (const v1::WatchedProgress& one : response.progress()) {
+      EXPECT_EQ(one.job(), job);
+      EXPECT_EQ(one.progress().fraction(), 0.5);
+      EXPECT_EQ(response.events_size(), 0);
+      EXPECT_GT(response.revision(), 0) << "a watch may resume from here";
+      ++told;
+      v1::CancelCalibrationJobRequest cancel;
+      cancel.set_name(job);
+      EXPECT_THAT(NewClient().CancelCalibrationJob(cancel), IsOk());
+    }
+    for (const v1::WatchEvent& event : response.events())
+      ended = ended || event.job().state() == v1::CANCELLED;
+  }
+  EXPECT_EQ(told, 1);
+  context.TryCancel();
+  reader->Finish();
 }
 
 }  // namespace

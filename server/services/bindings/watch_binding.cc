@@ -9,6 +9,7 @@
 #include "server/services/bindings/binding.h"
 #include "server/store/message.h"
 #include "server/watch/plant_watch.h"
+#include "server/watch/progress.h"
 #include "truepose/v1/watch_services.grpc.pb.h"
 
 namespace truepose::services {
@@ -22,14 +23,25 @@ struct Watcher {
   CallContext call;
   std::unique_ptr<PlantWatch> watch;
   absl::Duration idle;
+  watch::ProgressTeller progress;
   absl::Time last = absl::Now();
 
   absl::StatusOr<std::optional<v1::WatchResponse>> Next() {
     TRUEPOSE_RETURN_IF_ERROR(Recheck(call));
     absl::StatusOr<std::optional<v1::WatchResponse>> next = watch->Next();
-    if (next.ok() && !next->has_value() && absl::Now() - last >= idle) next = watch->Bookmark();
-    if (next.ok() && next->has_value()) last = absl::Now();
+    if (!next.ok()) return next;
+    if (!next->has_value()) next = Beside();
+    if (next->has_value()) last = absl::Now();
     return next;
+  }
+
+  // Without a change: progress, or a bookmark after a while.
+  std::optional<v1::WatchResponse> Beside() {
+    std::optional<v1::WatchResponse> bookmark = watch->Bookmark();
+    if (!bookmark.has_value()) return bookmark;
+    for (v1::WatchedProgress& one : progress.News()) *bookmark->add_progress() = std::move(one);
+    if (bookmark->progress().empty() && absl::Now() - last < idle) return std::nullopt;
+    return bookmark;
   }
 
   absl::Status TooSlow() const {
@@ -73,7 +85,11 @@ class WatchBinding final : public v1::WatchService::CallbackService {
              const v1::WatchRequest& request) {
     auto begun = rpc::Guarded([&] { return PlantWatch::Begin(call.store, request); });
     if (!begun.ok()) return stream->End(begun.status());
-    auto watcher = std::make_shared<Watcher>(call, *std::move(begun), settings_.idle);
+    watch::ProgressTeller::Look look;
+    if (request.progress())
+      look = [&engine = call.engine, robot = request.robot()] { return engine.Progress(robot); };
+    auto watcher = std::make_shared<Watcher>(call, *std::move(begun), settings_.idle,
+                                             watch::ProgressTeller(std::move(look)));
     std::shared_ptr<void> listening =
         settings_.hub.Add([weak = std::weak_ptr<Stream>(stream)](Wake wake) {
           const std::shared_ptr<Stream> alive = weak.lock();

@@ -30,6 +30,12 @@ absl::StatusCode CodeOf(int code, int extended) {
   }
 }
 
+// Reads go on; clients may send the same again.
+constexpr char kFull[] =
+    "database: the disk is full; nothing of this was stored. Free space where the database is, "
+    "then "
+    "send it again";
+
 // More than the texts of all repositories together.
 constexpr size_t kMostIdle = 500;
 
@@ -42,6 +48,7 @@ absl::Status SqliteStatus(int code, sqlite3* database) {
   const int primary = code & 0xff;
   const std::string message = absl::StrCat("database: ", sqlite3_errmsg(database));
   if (primary == SQLITE_BUSY || primary == SQLITE_LOCKED) return Retryable(message);
+  if (primary == SQLITE_FULL) return absl::ResourceExhaustedError(kFull);
   return absl::Status(CodeOf(primary, sqlite3_extended_errcode(database)), message);
 }
 

@@ -1,0 +1,198 @@
+#include "tests/integration/replay_rows.h"
+
+#include <algorithm>
+
+namespace truepose::testing {
+namespace {
+
+const std::vector<ReplayRow> kRows = {
+    {"CreateRobot", {}, Stage::kNothing, R"(robot_id: "r-$n" nominal { $nominal })"},
+    {"UpdateRobot",
+     {"CreateRobot"},
+     Stage::kNothing,
+     R"(robot { name: "robots/r-$n" display_name: "north" } update_mask { paths: )"
+     R"("display_name" })"},
+    {"DeleteRobot", {"CreateRobot"}, Stage::kNothing, R"(name: "robots/r-$n")"},
+    {"UndeleteRobot", {"DeleteRobot"}, Stage::kNothing, R"(name: "robots/r-$n")"},
+    {"CreateNominalRevision",
+     {"CreateRobot"},
+     Stage::kNothing,
+     R"(parent: "robots/r-$n" nominal { $changed_nominal })"},
+    {"CreateSession",
+     {"CreateRobot"},
+     Stage::kNothing,
+     R"(session_id: "$uuid" session { robot: "robots/r-$n" })"},
+    {"UpdateSession",
+     {"CreateSession"},
+     Stage::kNothing,
+     R"(session { name: "sessions/$uuid" display_name: "monday" } update_mask { paths: )"
+     R"("display_name" })"},
+    {"DeleteSession", {"CreateSession"}, Stage::kNothing, R"(name: "sessions/$uuid")"},
+    {"UndeleteSession", {"DeleteSession"}, Stage::kNothing, R"(name: "sessions/$uuid")"},
+    {"SealSession",
+     {"CreateSession"},
+     Stage::kReadings,
+     R"(name: "sessions/$uuid" reading_count: 30)"},
+    {"CreateCalibrationJob",
+     {"SealSession"},
+     Stage::kNothing,
+     R"(job_id: "$uuid" robot: "robots/r-$n" sessions: "sessions/$uuid" options { split: )"
+     R"("even-odd" })"},
+    {"CancelCalibrationJob", {"CreateRobot"}, Stage::kRunningJob, R"(name: "jobs/$uuid")"},
+    {"ApproveCalibration",
+     {"CreateCalibrationJob"},
+     Stage::kJobEnded,
+     R"(name: "robots/r-$n/calibrations/1" reason: "looked at")"},
+    {"RejectCalibration",
+     {"CreateCalibrationJob"},
+     Stage::kJobEnded,
+     R"(name: "robots/r-$n/calibrations/1" reason: "too few poses")"},
+    {"ActivateCalibration",
+     {"ApproveCalibration"},
+     Stage::kNothing,
+     R"(name: "robots/r-$n/calibrations/1")"},
+    {"RollBackCalibration",
+     {"ActivateCalibration"},
+     Stage::kSecondActive,
+     R"(robot: "robots/r-$n" reason: "it hit the fence")"},
+    {"CreateInstrument",
+     {},
+     Stage::kNothing,
+     R"(instrument_id: "x-$n" instrument { position_sd_m: 1e-5 })"},
+    {"UpdateInstrument",
+     {"CreateInstrument"},
+     Stage::kNothing,
+     R"(instrument { name: "instruments/x-$n" display_name: "other" } update_mask { )"
+     R"(paths: "display_name" })"},
+    {"DeleteInstrument", {"CreateInstrument"}, Stage::kNothing, R"(name: "instruments/x-$n")"},
+    {"UndeleteInstrument", {"DeleteInstrument"}, Stage::kNothing, R"(name: "instruments/x-$n")"},
+    {"CreateRegisteredTool",
+     {},
+     Stage::kNothing,
+     R"(registered_tool_id: "x-$n" registered_tool { pose { qw: 1 } })"},
+    {"UpdateRegisteredTool",
+     {"CreateRegisteredTool"},
+     Stage::kNothing,
+     R"(registered_tool { name: "tools/x-$n" display_name: "other" } update_mask { )"
+     R"(paths: "display_name" })"},
+    {"DeleteRegisteredTool", {"CreateRegisteredTool"}, Stage::kNothing, R"(name: "tools/x-$n")"},
+    {"UndeleteRegisteredTool", {"DeleteRegisteredTool"}, Stage::kNothing, R"(name: "tools/x-$n")"},
+    {"CreateRegisteredFixture",
+     {},
+     Stage::kNothing,
+     R"(registered_fixture_id: "x-$n" registered_fixture { fixture { name: "dime" )"
+     R"(features { name: "a" kind: FEATURE_POINT pose { qw: 1 } } } })"},
+    {"UpdateRegisteredFixture",
+     {"CreateRegisteredFixture"},
+     Stage::kNothing,
+     R"(registered_fixture { name: "fixtures/x-$n" display_name: "other" } update_mask { )"
+     R"(paths: "display_name" })"},
+    {"DeleteRegisteredFixture",
+     {"CreateRegisteredFixture"},
+     Stage::kNothing,
+     R"(name: "fixtures/x-$n")"},
+    {"UndeleteRegisteredFixture",
+     {"DeleteRegisteredFixture"},
+     Stage::kNothing,
+     R"(name: "fixtures/x-$n")"},
+    {"CreateTarget", {}, Stage::kNothing, R"(target_id: "x-$n" target { pose { qw: 1 } })"},
+    {"UpdateTarget",
+     {"CreateTarget"},
+     Stage::kNothing,
+     R"(target { name: "targets/x-$n" display_name: "other" } update_mask { paths: )"
+     R"("display_name" })"},
+    {"DeleteTarget", {"CreateTarget"}, Stage::kNothing, R"(name: "targets/x-$n")"},
+    {"UndeleteTarget", {"DeleteTarget"}, Stage::kNothing, R"(name: "targets/x-$n")"},
+    {"CreatePlacement",
+     {"CreateRobot"},
+     Stage::kNothing,
+     R"(parent: "robots/r-$n" placement_id: "x-$n" placement { instrument: )"
+     R"("instruments/tracker" })"},
+    {"UpdatePlacement",
+     {"CreatePlacement"},
+     Stage::kNothing,
+     R"(placement { name: "robots/r-$n/placements/x-$n" display_name: "other" } )"
+     R"(update_mask { paths: "display_name" })"},
+    {"DeletePlacement",
+     {"CreatePlacement"},
+     Stage::kNothing,
+     R"(name: "robots/r-$n/placements/x-$n")"},
+    {"UndeletePlacement",
+     {"DeletePlacement"},
+     Stage::kNothing,
+     R"(name: "robots/r-$n/placements/x-$n")"},
+    {"CreatePoseSet",
+     {"CreateRobot"},
+     Stage::kNothing,
+     R"(parent: "robots/r-$n" pose_set_id: "x-$n" pose_set { purpose: POSE_SET_CHECK )"
+     R"(poses { joints: [0.1, 0.2, 0.3, 0.1, 0.2] } })"},
+    {"UpdatePoseSet",
+     {"CreatePoseSet"},
+     Stage::kNothing,
+     R"(pose_set { name: "robots/r-$n/poseSets/x-$n" display_name: "other" } update_mask )"
+     R"({ paths: "display_name" })"},
+    {"DeletePoseSet", {"CreatePoseSet"}, Stage::kNothing, R"(name: "robots/r-$n/poseSets/x-$n")"},
+    {"UndeletePoseSet", {"DeletePoseSet"}, Stage::kNothing, R"(name: "robots/r-$n/poseSets/x-$n")"},
+    {"CreateRobotEvent",
+     {"CreateRobot"},
+     Stage::kNothing,
+     R"(parent: "robots/r-$n" robot_event_id: "$uuid" robot_event { kind: NOTE )"
+     R"(description: "greased" })"},
+    {"CreateRecalibrationPolicy",
+     {"CreateRobot"},
+     Stage::kNothing,
+     R"(parent: "robots/r-$n" recalibration_policy_id: "x-$n" recalibration_policy { )"
+     R"(on_failed_check: true })"},
+    {"UpdateRecalibrationPolicy",
+     {"CreateRecalibrationPolicy"},
+     Stage::kNothing,
+     R"(recalibration_policy { name: "robots/r-$n/recalibrationPolicies/x-$n" )"
+     R"(temperature_step_k: 5 } update_mask { paths: "temperature_step_k" })"},
+    {"DeleteRecalibrationPolicy",
+     {"CreateRecalibrationPolicy"},
+     Stage::kNothing,
+     R"(name: "robots/r-$n/recalibrationPolicies/x-$n")"},
+    {"UndeleteRecalibrationPolicy",
+     {"DeleteRecalibrationPolicy"},
+     Stage::kNothing,
+     R"(name: "robots/r-$n/recalibrationPolicies/x-$n")"},
+    {"CreateRecalibrationRequest",
+     {"CreatePoseSet"},
+     Stage::kNothing,
+     R"(parent: "robots/r-$n" recalibration_request_id: "$uuid" recalibration_request { )"
+     R"(reason: "yearly" pose_set: "robots/r-$n/poseSets/x-$n" })"},
+    {"AcknowledgeRecalibration",
+     {"CreateRecalibrationRequest"},
+     Stage::kNothing,
+     R"(name: "robots/r-$n/recalibrationRequests/$uuid")"},
+    {"ReportMeasuring",
+     {"AcknowledgeRecalibration", "CreateSession"},
+     Stage::kNothing,
+     R"(name: "robots/r-$n/recalibrationRequests/$uuid" session: "sessions/$uuid" )"
+     R"(readings_taken: 1)"},
+    {"CalibrateForRequest",
+     {"ReportMeasuring", "SealSession"},
+     Stage::kNothing,
+     R"(name: "robots/r-$n/recalibrationRequests/$uuid")"},
+    {"DeclineRecalibration",
+     {"CreateRecalibrationRequest"},
+     Stage::kNothing,
+     R"(name: "robots/r-$n/recalibrationRequests/$uuid" reason: "in production")"},
+    {"CreateDriftCheck",
+     {"ActivateCalibration"},
+     Stage::kNothing,
+     R"(parent: "robots/r-$n" drift_check_id: "$uuid" drift_check { session: )"
+     R"("sessions/$uuid" })"},
+};
+
+}  // namespace
+
+const std::vector<ReplayRow>& ReplayRows() { return kRows; }
+
+const ReplayRow* FindReplayRow(const std::string& method) {
+  const auto found = std::find_if(ReplayRows().begin(), ReplayRows().end(),
+                                  [&](const ReplayRow& row) { return row.method == method; });
+  return found == ReplayRows().end() ? nullptr : &*found;
+}
+
+}  // namespace truepose::testing
