@@ -26,6 +26,7 @@ class RecalibrationTest : public ::testing::Test {
     server::ServerOptions options;
     options.listen = absl::StrCat("unix:", folder_.Path("socket"));
     options.database = ":memory:";
+    options.dev_open = true;
     auto started = server::Server::Start(options, server::CalibrationRunner());
     ASSERT_TRUE(started.ok()) << started.status();
     server_ = *std::move(started);
