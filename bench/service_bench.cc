@@ -1,20 +1,17 @@
-// The whole of UR10 series C through a real server: read from its file, imported over a socket into a database file,
-// sealed, calibrated (even rows), result fetched. A fresh server and database each time, its start included.
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <string>
-
+// The whole of UR10 series C through a real server: read from its file, imported over a socket into
+// a database file, sealed, calibrated (even rows), result fetched. A fresh server and database each
+// time, its start included.
 #include <benchmark/benchmark.h>
 
+#include <string>
+
+#include "bench/bench_server.h"
 #include "bench/shared_problem.h"
 #include "client/append_readings.h"
 #include "client/client.h"
 #include "client/wait_for_job.h"
 #include "formats/robot_file.h"
 #include "formats/session_file.h"
-#include "server/calibration_runner.h"
-#include "server/server.h"
 
 namespace truepose::bench {
 namespace {
@@ -22,37 +19,9 @@ namespace {
 constexpr char kSession[] = "6f2c1d8e-0b6a-4c59-9d57-000000000001";
 constexpr char kJob[] = "6f2c1d8e-0b6a-4c59-9d57-000000000002";
 
-// A benchmark that fails has no figure: the message, and the end.
-template <typename T>
-T Demand(absl::StatusOr<T> value) {
-  if (!value.ok()) {
-    std::fprintf(stderr, "%s\n", value.status().ToString().c_str());
-    std::exit(1);
-  }
-  return *std::move(value);
-}
-
-class Folder {
- public:
-  Folder() : path_((std::filesystem::temp_directory_path() / "truepose-bench.XXXXXX").string()) {
-    if (mkdtemp(path_.data()) == nullptr) std::exit(1);
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  std::string File(const char* name) const { return path_ + "/" + name; }
-
- private:
-  std::string path_;
-};
-
-std::unique_ptr<server::Server> StartServer(const Folder& folder) {
-  server::ServerOptions options;
-  options.listen = "127.0.0.1:0";
-  options.database = folder.File("truepose.db");
-  return Demand(server::Server::Start(options, server::CalibrationRunner()));
-}
-
 formats::RobotFile AddRobot(const client::Client& client) {
-  formats::RobotFile file = Demand(formats::ReadRobotFile(TRUEPOSE_SOURCE_DIR "/deploy/examples/ur10.yaml"));
+  formats::RobotFile file =
+      Demand(formats::ReadRobotFile(TRUEPOSE_SOURCE_DIR "/deploy/examples/ur10.yaml"));
   v1::CreateRobotRequest request;
   request.set_robot_id(file.robot_id);
   *request.mutable_nominal() = file.nominal;
@@ -61,7 +30,8 @@ formats::RobotFile AddRobot(const client::Client& client) {
 }
 
 int Import(const client::Client& client, const formats::RobotFile& robot) {
-  const auto file = Demand(formats::ReadSessionFile(SharedFolder() + "/data/ipa_ur10/series_C.csv", robot.nominal));
+  const auto file = Demand(
+      formats::ReadSessionFile(SharedFolder() + "/data/ipa_ur10/series_C.csv", robot.nominal));
   v1::CreateSessionRequest create;
   create.set_session_id(kSession);
   *create.mutable_session() = file.session;
@@ -93,7 +63,8 @@ void SeriesC(benchmark::State& state) {
     const formats::RobotFile robot = AddRobot(client);
     state.counters["readings"] = Import(client, robot);
     const v1::Calibration calibration = CalibrateOnServer(client, robot);
-    state.counters["control_rms_mm"] = calibration.report().sets().control().after().position_mm().rms();
+    state.counters["control_rms_mm"] =
+        calibration.report().sets().control().after().position_mm().rms();
   }
 }
 BENCHMARK(SeriesC)->Iterations(1)->Repetitions(5)->Unit(benchmark::kSecond)->UseRealTime();
