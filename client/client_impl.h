@@ -7,7 +7,9 @@
 #include "client/client.h"
 #include "grpcpp/channel.h"
 #include "grpcpp/client_context.h"
+#include "truepose/v1/download_services.grpc.pb.h"
 #include "truepose/v1/services.grpc.pb.h"
+#include "truepose/v1/watch_services.grpc.pb.h"
 
 namespace truepose::client {
 
@@ -16,9 +18,12 @@ struct Client::Impl {
 
   std::string address;
   ClientOptions options;
+  std::shared_ptr<grpc::Channel> channel;
   std::unique_ptr<v1::RobotService::Stub> robots;
   std::unique_ptr<v1::SessionService::Stub> sessions;
   std::unique_ptr<v1::CalibrationService::Stub> calibrations;
+  std::unique_ptr<v1::DownloadService::Stub> downloads;
+  std::unique_ptr<v1::WatchService::Stub> watches;
 };
 
 // The metadata that every call carries.

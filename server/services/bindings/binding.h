@@ -16,6 +16,10 @@ std::unique_ptr<grpc::Service> BindCalibrationService(const CallContext& call,
                                                       const Executors& executors,
                                                       rpc::Drain& drain);
 
+std::unique_ptr<grpc::Service> BindDownloadService(const CallContext& call,
+                                                   const Executors& executors, rpc::Drain& drain,
+                                                   const WatchSettings& settings);
+
 std::unique_ptr<grpc::Service> BindWatchService(const CallContext& call, const Executors& executors,
                                                 rpc::Drain& drain, const WatchSettings& settings);
 
