@@ -12,6 +12,8 @@ void AddAllCommands(const Command& root) {
   AddCompensate(root);
   AddJob(root);
   AddCalibration(root);
+  AddWatch(root);
+  AddPlant(root);
   AddSimulate(root);
   AddModel(root);
   AddReproduce(root);
