@@ -1,4 +1,4 @@
-// Unary calls by their descriptors.
+// Unary calls by their names.
 #include <chrono>
 #include <memory>
 #include <string>
@@ -32,16 +32,15 @@ std::unique_ptr<Message> WithRequestId(const Message& request) {
 
 }  // namespace
 
-absl::Status Client::CallMethod(const google::protobuf::MethodDescriptor& method,
-                                const Message& request, Message* response) const {
+absl::Status Client::CallMethod(const std::string& method, const Message& request,
+                                Message* response) const {
   const std::unique_ptr<Message> sent = WithRequestId(request);
   grpc::ClientContext context;
   context.set_deadline(std::chrono::system_clock::now() + impl_->options.call_timeout);
   PrepareContext(context);
-  const std::string path = absl::StrCat("/", method.service()->full_name(), "/", method.name());
   grpc::TemplatedGenericStub<Message, Message> stub(impl_->channel);
   grpc::CompletionQueue queue;
-  const auto call = stub.PrepareUnaryCall(&context, path, *sent, &queue);
+  const auto call = stub.PrepareUnaryCall(&context, absl::StrCat("/", method), *sent, &queue);
   call->StartCall();
   grpc::Status status;
   call->Finish(response, &status, nullptr);

@@ -108,9 +108,9 @@ class Client {
                                    const std::function<bool()>& is_cancelled = {}) const;
 
   // Any unary RPC of the API, for programs that treat all kinds of resources alike.
+  // @param method such as "truepose.v1.PlantService/CreateInstrument".
   // @param response of the method's output type; unspecified after an error.
-  absl::Status CallMethod(const google::protobuf::MethodDescriptor& method,
-                          const google::protobuf::Message& request,
+  absl::Status CallMethod(const std::string& method, const google::protobuf::Message& request,
                           google::protobuf::Message* response) const;
 
   // One stream of what changes, as WatchCalibrationJob. watch.h connects again; most callers want

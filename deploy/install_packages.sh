@@ -1,17 +1,26 @@
 #!/usr/bin/env bash
-# Installs what deploy/packages.txt lists and this Debian 12 lacks, as root or through sudo. Does nothing when nothing is missing.
+# install_packages.sh [--build]: installs what deploy/packages.txt lists and this Debian 12 lacks, as root or through
+# sudo. Does nothing when nothing is missing.
+#
+#   --build  leaves out what stands below "# only tests/run.sh"
 set -euo pipefail
 
 list="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/packages.txt"
 
-is_installed() {
-  [ "$(dpkg-query -W -f='${Status}' "$1" 2>/dev/null)" = "install ok installed" ]
+wanted() {
+  if [ "$1" = --build ]; then sed '/^# only tests\/run.sh/,$d' "$list"; else cat "$list"; fi | grep -v '^#'
 }
+
+# Names of what is installed, and of what that provides: another nodejs than Debian's brings its own npm.
+installed="$(dpkg-query -W -f='${db:Status-Status} ${Package}, ${Provides}\n' | sed -n 's/^installed //p' |
+  tr ',' '\n' | sed 's/^ *//; s/ .*//')"
+
+is_installed() { grep -qxF "$1" <<<"$installed"; }
 
 missing=()
 while read -r package; do
   is_installed "$package" || missing+=("$package")
-done < <(grep -v '^#' "$list")
+done < <(wanted "${1:-}")
 [ "${#missing[@]}" -gt 0 ] || exit 0
 
 as_root=()

@@ -99,7 +99,8 @@ case "${1:-}" in
   *) echo "tests/run.sh: found '$1', expected --long or nothing" >&2; exit 2 ;;
 esac
 
-step "install packages" deploy/install_packages.sh && { dev_stage; sanitizer_stage; }
+step "install packages" deploy/install_packages.sh && step "install buf" tests/proto/install_buf.sh &&
+  { dev_stage; sanitizer_stage; }
 [ -z "${TRUEPOSE_LONG:-}" ] || long_stage
 
 [ "$passed" -gt 0 ] || failed=$((failed > 0 ? failed : 1))

@@ -17,15 +17,8 @@ namespace {
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 using google::protobuf::MessageFactory;
-using google::protobuf::ServiceDescriptor;
 
-const ServiceDescriptor* Service(const google::protobuf::Descriptor* of_file, const char* name) {
-  return of_file->file()->FindServiceByName(name);
-}
-
-const ServiceDescriptor* PlantService() {
-  return Service(v1::CreateInstrumentRequest::descriptor(), "PlantService");
-}
+constexpr char kPlantService[] = "truepose.v1.PlantService";
 
 std::vector<ResourceKind> OfThePlant() {
   return {{.word = "instrument",
@@ -34,7 +27,7 @@ std::vector<ResourceKind> OfThePlant() {
            .types = "Instruments",
            .collection = "instruments",
            .content = &v1::Instrument::default_instance(),
-           .service = PlantService(),
+           .service = kPlantService,
            .columns = {"model", "serial", "position_sd_mm", "certificate_expire_time"},
            .example_id = "lt-1",
            .example_set = "serial=4711 position_sd_mm=0.02"},
@@ -44,7 +37,7 @@ std::vector<ResourceKind> OfThePlant() {
            .types = "RegisteredTools",
            .collection = "tools",
            .content = &v1::RegisteredTool::default_instance(),
-           .service = PlantService(),
+           .service = kPlantService,
            .columns = {"pose.x_mm", "pose.y_mm", "pose.z_mm", "mass_kg", "version"},
            .example_id = "gripper-2",
            .example_set = "pose.z_mm=145.5 mass_kg=1.2"},
@@ -54,7 +47,7 @@ std::vector<ResourceKind> OfThePlant() {
            .types = "RegisteredFixtures",
            .collection = "fixtures",
            .content = &v1::RegisteredFixture::default_instance(),
-           .service = PlantService(),
+           .service = kPlantService,
            .columns = {"fixture.features", "certificate", "certificate_expire_time", "version"},
            .example_id = "sockets",
            .example_set = "certificate=K-2026-17"},
@@ -64,7 +57,7 @@ std::vector<ResourceKind> OfThePlant() {
            .types = "Targets",
            .collection = "targets",
            .content = &v1::Target::default_instance(),
-           .service = PlantService(),
+           .service = kPlantService,
            .columns = {"pose.x_mm", "pose.y_mm", "pose.z_mm"},
            .example_id = "smr-a",
            .example_set = "pose.x_mm=25 pose.z_mm=80"}};
@@ -78,7 +71,7 @@ std::vector<ResourceKind> OfARobot() {
            .collection = "placements",
            .of_robot = true,
            .content = &v1::Placement::default_instance(),
-           .service = PlantService(),
+           .service = kPlantService,
            .columns = {"instrument"},
            .example_id = "ur10/floor-a",
            .example_set = "instrument=instruments/lt-1"},
@@ -89,7 +82,7 @@ std::vector<ResourceKind> OfARobot() {
            .collection = "poseSets",
            .of_robot = true,
            .content = &v1::PoseSet::default_instance(),
-           .service = PlantService(),
+           .service = kPlantService,
            .output_only = {"origin"},
            .columns = {"purpose", "poses", "origin"},
            .example_id = "ur10/daily",
@@ -104,9 +97,16 @@ FieldDescriptor const* FieldOfType(const Message& message, const Message& type) 
   return nullptr;
 }
 
-std::unique_ptr<Message> NewMessage(const google::protobuf::Descriptor* descriptor) {
+// "truepose.v1." and the type; all requests are linked with the ones that are named here.
+std::unique_ptr<Message> NewMessage(const std::string& type) {
+  const auto* pool = v1::CreateInstrumentRequest::descriptor()->file()->pool();
+  const auto* descriptor = pool->FindMessageTypeByName(absl::StrCat("truepose.v1.", type));
   return std::unique_ptr<Message>(
       MessageFactory::generated_factory()->GetPrototype(descriptor)->New());
+}
+
+std::string MethodOf(const ResourceKind& kind, const std::string& verb) {
+  return absl::StrCat(verb, verb == "List" ? kind.types : kind.type);
 }
 
 }  // namespace
@@ -127,7 +127,7 @@ const ResourceKind& RobotKindOfResource() {
                         .types = "Robots",
                         .collection = "robots",
                         .content = &v1::Robot::default_instance(),
-                        .service = Service(v1::CreateRobotRequest::descriptor(), "RobotService"),
+                        .service = "truepose.v1.RobotService",
                         .output_only = {"nominal_revision", "active_calibration"},
                         .hidden = "nominal_revision.nominal.",
                         .example_id = "ur10",
@@ -142,7 +142,7 @@ const ResourceKind& SessionKindOfResource() {
       .types = "Sessions",
       .collection = "sessions",
       .content = &v1::Session::default_instance(),
-      .service = Service(v1::CreateSessionRequest::descriptor(), "SessionService"),
+      .service = "truepose.v1.SessionService",
       .output_only = {"robot", "nominal_revision", "source", "extra_columns", "state",
                       "reading_count", "digest", "seal_time", "sealed_by", "created_by"},
       .example_id = "5f0c2c1e-8a53-4f0e-9a51-6f1f0f1f7a11",
@@ -172,10 +172,9 @@ std::vector<std::string> OutputOnly(const ResourceKind& kind) {
 }
 
 StandardCall::StandardCall(const ResourceKind& kind, const std::string& verb)
-    : method(kind.service->FindMethodByName(
-          absl::StrCat(verb, verb == "List" ? kind.types : kind.type))),
-      request(NewMessage(method->input_type())),
-      response(NewMessage(method->output_type())) {}
+    : method(absl::StrCat(kind.service, "/", MethodOf(kind, verb))),
+      request(NewMessage(MethodOf(kind, verb) + "Request")),
+      response(NewMessage(verb == "List" ? MethodOf(kind, verb) + "Response" : kind.type)) {}
 
 void StandardCall::Set(const std::string& field, const std::string& text) {
   const FieldDescriptor* found = request->GetDescriptor()->FindFieldByName(field);
@@ -193,7 +192,7 @@ Message& StandardCall::content(const ResourceKind& kind) {
 }
 
 absl::Status StandardCall::Run(const client::Client& client) {
-  return client.CallMethod(*method, *request, response.get());
+  return client.CallMethod(method, *request, response.get());
 }
 
 }  // namespace truepose::cli

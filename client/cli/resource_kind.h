@@ -1,5 +1,5 @@
 // The kinds of resources that have the standard methods, as the command line speaks of them; their
-// messages and methods are found by descriptor.
+// messages are found by descriptor.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,7 @@ struct ResourceKind {
   std::string collection;    // "poseSets"
   bool of_robot = false;     // robots/{robot}/{collection}/{id}
   const google::protobuf::Message* content = nullptr;  // default instance
-  const google::protobuf::ServiceDescriptor* service = nullptr;
+  std::string service;                                 // "truepose.v1.PlantService"
   // Fields that only the server sets, beside those of every resource.
   std::vector<std::string> output_only = {};
   std::vector<std::string> columns = {};  // of the list, as keys for people
@@ -48,7 +48,7 @@ std::vector<std::string> OutputOnly(const ResourceKind& kind);
 struct StandardCall {
   StandardCall(const ResourceKind& kind, const std::string& verb);
 
-  const google::protobuf::MethodDescriptor* method;
+  std::string method;  // "truepose.v1.PlantService/CreatePoseSet"
   std::unique_ptr<google::protobuf::Message> request;
   std::unique_ptr<google::protobuf::Message> response;
 

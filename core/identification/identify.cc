@@ -13,6 +13,7 @@
 #include "core/identification/contacts.h"
 #include "core/identification/fixture_error.h"
 #include "core/identification/frame_gauge.h"
+#include "core/identification/robust.h"
 #include "core/identification/weighted_solve.h"
 
 namespace truepose {
@@ -45,6 +46,17 @@ VarianceFactor FactorOf(const Problem& problem, const Identification& identifica
   return {factor, {sd(0), sd(1)}};
 }
 
+// The parameters' covariance under a loss (robust.h); rows of a prior stay as they are.
+Eigen::MatrixXd RobustCovariance(const Problem& problem, Loss loss, const Identification& result) {
+  Problem unweighted = problem;
+  for (Reading& reading : unweighted.readings) reading.weight = 1;
+  WhitenedSystem system = Whitened(unweighted, result.estimate, result.model_error);
+  const int active = static_cast<int>(result.set.active.size());
+  system.J.topRows(result.rows) /= std::sqrt(
+      RobustCovarianceFactor(loss, unweighted, result.estimate, result.model_error, active));
+  return ParameterCovariance(system.J, result.set.active);
+}
+
 void Finish(const Problem& problem, const IdentifyOptions& options, Identification* result) {
   const WhitenedSystem system = Whitened(problem, result->estimate, result->model_error);
   const int prior_rows = problem.prior ? static_cast<int>(problem.prior->root.rows()) : 0;
@@ -58,6 +70,8 @@ void Finish(const Problem& problem, const IdentifyOptions& options, Identificati
   for (const Reading& reading : problem.readings) result->weights.push_back(reading.weight);
   if (result->summary.covariance_approximate) {
     result->covariance = result->summary.covariance;
+  } else if (options.loss != Loss::kNone && result->rows > active) {
+    result->covariance = RobustCovariance(problem, options.loss, *result);
   } else if (all_rows >= active) {
     result->covariance = ParameterCovariance(system.J, result->set.active);
   }

@@ -25,6 +25,14 @@ double WeightAt(Loss loss, double d, double c) {
   return u > 0 ? u * u : 0;
 }
 
+// d psi / d r averaged over the directions of r: w + w' d / rows.
+double Slope(Loss loss, double d, int rows) {
+  const double c = Threshold(loss, rows);
+  if (loss == Loss::kHuber) return d <= c ? 1 : c / d * (1 - 1.0 / rows);
+  const double u = 1 - (d / c) * (d / c);
+  return u > 0 ? u * u - 4 * u * (d / c) * (d / c) / rows : 0;
+}
+
 }  // namespace
 
 const char* Name(Loss loss) {
@@ -57,6 +65,25 @@ double ResidualSize(const Problem& problem, const Reading& reading, const Estima
   return (WhitenerOf(problem, unweighted, estimate, model_error) *
           ResidualAt(problem, reading, estimate))
       .norm();
+}
+
+double RobustCovarianceFactor(Loss loss, const Problem& problem, const Estimate& estimate,
+                              const ModelError& model_error, int parameters) {
+  if (loss == Loss::kNone) return 1;
+  double squares = 0, slopes = 0, squared_slopes = 0, n = 0;
+  for (const Reading& reading : problem.readings) {
+    const int rows = RowsOf(reading);
+    const double d = ResidualSize(problem, reading, estimate, model_error);
+    const double weighted = LossWeight(loss, d, rows) * d, slope = Slope(loss, d, rows);
+    squares += weighted * weighted;
+    slopes += rows * slope;
+    squared_slopes += rows * slope * slope;
+    n += rows;
+  }
+  const double mean = slopes / n, variance = squared_slopes / n - mean * mean;
+  if (!(mean > 0)) return 1;
+  const double K = 1 + parameters / n * variance / (mean * mean);
+  return K * K * squares / (n - parameters) / (mean * mean);
 }
 
 double Reweigh(Loss loss, const Estimate& estimate, const ModelError& model_error,

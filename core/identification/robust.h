@@ -23,6 +23,18 @@ double LossWeight(Loss loss, double d, int rows);
 // E[(w d)^2] / (rows E[w]) for d^2 of chi-square with `rows` degrees of freedom.
 double Consistency(Loss loss, int rows);
 
+// What a robust loss costs in covariance: with psi(r) = w(d) r of the whitened residual r of a
+// reading with m rows, n rows and p parameters in all,
+//   factor = K^2 [ sum w^2 d^2 / (n - p) ] / mean(psi')^2,   psi' = w + w'(d) d / m,
+//   K = 1 + p/n var(psi') / mean(psi')^2
+// times (J' R^-1 J)^-1 of the readings without their weights is the covariance of the parameters
+// (P. J. Huber, Robust Statistics, Wiley 1981, Sec. 7.6, Eq. 6.5; there for m = 1). It needs no
+// assumption on how R is scaled.
+// @param parameters p; less than the rows of the readings. @returns 1 without a loss, and where
+// the loss leaves nothing (mean(psi') <= 0).
+double RobustCovarianceFactor(Loss loss, const Problem& problem, const Estimate& estimate,
+                              const ModelError& model_error, int parameters);
+
 // d of a reading at an estimate: its residual in standard deviations, all rows together.
 double ResidualSize(const Problem& problem, const Reading& reading, const Estimate& estimate,
                     const ModelError& model_error);

@@ -40,6 +40,7 @@ copy_network_settings() {
     mkdir -p "$debian/usr/local/share/ca-certificates"
     cp -r /usr/local/share/ca-certificates/. "$debian/usr/local/share/ca-certificates/"
   fi
+  ! command -v npm >/dev/null || echo "registry=$(npm config get registry)" >"$debian/root/.npmrc"
 }
 
 make_debian() {
@@ -61,6 +62,7 @@ put_tree() {
 inside() {
   chroot "$debian" /usr/bin/env -i HOME=/root LANG=C.UTF-8 PATH=/usr/sbin:/usr/bin:/sbin:/bin \
     ${http_proxy:+http_proxy="$http_proxy"} ${https_proxy:+https_proxy="$https_proxy"} \
+    ${NODE_EXTRA_CA_CERTS:+NODE_EXTRA_CA_CERTS="$NODE_EXTRA_CA_CERTS"} \
     /bin/bash -c "cd /home/engineer/truepose && $1"
 }
 

@@ -5,6 +5,8 @@
 #include <thread>
 
 #include "absl/strings/str_cat.h"
+#include "client/status.h"
+#include "core/base/error_metadata.h"
 #include "tests/integration/server_fixture.h"
 #include "tests/server/testing/examples.h"
 #include "tests/server/testing/expect_status.h"
@@ -32,7 +34,9 @@ struct Follower {
     }
     for (const v1::WatchEvent& event : response.events()) {
       const auto [known, is_new] = revisions.try_emplace(event.name(), event.revision());
-      if (!is_new) EXPECT_GT(event.revision(), known->second) << event.name();
+      if (!is_new) {
+        EXPECT_GT(event.revision(), known->second) << event.name();
+      }
       known->second = event.revision();
       ++events;
     }
@@ -126,6 +130,29 @@ TEST_F(WatchTest, RefusesWhatItsHistoryDoesNotHold) {
   follower.resume = 1'000'000;
   follower.epoch = "0123";
   EXPECT_EQ(Follow(follower, "never").error_code(), grpc::StatusCode::OUT_OF_RANGE);
+}
+
+// Would catch a slow reader that is cut without what a program needs to go on without gap or
+// repeat.
+TEST_F(WatchTest, CutsASlowReaderWithTheRevisionToResumeFrom) {
+  AddInstrument("a");
+  Rename("a", 1);
+  Follower follower;
+  ASSERT_TRUE(Follow(follower, "1").ok());
+  options_.watch_stall = absl::Nanoseconds(1);  // no reader is quicker
+  Restart();
+  Rename("a", 2);
+  const grpc::Status cut = Follow(follower, "never");
+  EXPECT_EQ(cut.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED) << cut.error_message();
+  const ErrorMetadata metadata = ErrorMetadataOf(client::FromGrpcStatus(cut, options_.listen));
+  ASSERT_EQ(metadata.count("resume_revision"), 1u);
+  EXPECT_EQ(metadata.at("resume_revision"), absl::StrCat(follower.resume));
+  options_.watch_stall = server::ServerOptions().watch_stall;
+  Restart();
+  Rename("a", 3);
+  const int seen = follower.events;
+  ASSERT_TRUE(Follow(follower, "3").ok());
+  EXPECT_EQ(follower.events - seen, 1);
 }
 
 }  // namespace

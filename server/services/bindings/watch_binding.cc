@@ -1,6 +1,8 @@
+#include <string>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "core/base/error_metadata.h"
 #include "core/base/fault.h"
 #include "server/rpc/pull_stream.h"
 #include "server/services/bindings/binding.h"
@@ -28,9 +30,12 @@ struct Watcher {
   }
 
   absl::Status TooSlow() const {
-    return store::Refusal(
-        absl::StatusCode::kResourceExhausted, "after_revision", "a reader that is too slow",
-        absl::StrCat("a watch that resumes from revision ", watch->resume_revision()));
+    const std::string revision = absl::StrCat(watch->resume_revision());
+    return WithErrorMetadata(
+        store::Refusal(absl::StatusCode::kResourceExhausted, "after_revision",
+                       "a reader that is too slow",
+                       absl::StrCat("a watch that resumes from revision ", revision)),
+        "resume_revision", revision);
   }
 };
 
