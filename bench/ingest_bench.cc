@@ -3,18 +3,14 @@
 // cores.
 #include <benchmark/benchmark.h>
 
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
 #include <string>
 
+#include "bench/bench_server.h"
 #include "bench/ingest_load.h"
 #include "bench/peers/grpc_echo.h"
 #include "bench/peers/raw_sqlite.h"
 #include "bench/rates.h"
 #include "client/client.h"
-#include "server/calibration_runner.h"
-#include "server/server.h"
 
 namespace truepose::bench {
 namespace {
@@ -24,33 +20,6 @@ constexpr Load kSingles{.clients = 64, .messages = 200};
 constexpr Load kStreamedSingles{.clients = 64, .messages = 200, .window = 8};
 constexpr Load kBatches{.clients = 1, .messages = 1'000, .batch = 100, .window = 8};
 constexpr int kRawCommits = 1'000;
-
-template <typename T>
-T Demand(absl::StatusOr<T> value) {
-  if (value.ok()) return *std::move(value);
-  std::fprintf(stderr, "%s\n", value.status().ToString().c_str());
-  std::exit(1);
-}
-
-class Folder {
- public:
-  Folder() : path_((std::filesystem::temp_directory_path() / "truepose-bench.XXXXXX").string()) {
-    if (mkdtemp(path_.data()) == nullptr) std::exit(1);
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  std::string File(const char* name) const { return path_ + "/" + name; }
-
- private:
-  std::string path_;
-};
-
-std::unique_ptr<server::Server> StartServer(const Folder& folder) {
-  server::ServerOptions options;
-  options.dev_open = true;
-  options.listen = "127.0.0.1:0";
-  options.database = folder.File("truepose.db");
-  return Demand(server::Server::Start(options, server::CalibrationRunner()));
-}
 
 v1::Nominal SixJoints() {
   v1::Nominal nominal;

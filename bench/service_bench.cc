@@ -3,55 +3,21 @@
 // time, its start included.
 #include <benchmark/benchmark.h>
 
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
 #include <string>
 
+#include "bench/bench_server.h"
 #include "bench/shared_problem.h"
 #include "client/append_readings.h"
 #include "client/client.h"
 #include "client/wait_for_job.h"
 #include "formats/robot_file.h"
 #include "formats/session_file.h"
-#include "server/calibration_runner.h"
-#include "server/server.h"
 
 namespace truepose::bench {
 namespace {
 
 constexpr char kSession[] = "6f2c1d8e-0b6a-4c59-9d57-000000000001";
 constexpr char kJob[] = "6f2c1d8e-0b6a-4c59-9d57-000000000002";
-
-// A benchmark that fails has no figure: the message, and the end.
-template <typename T>
-T Demand(absl::StatusOr<T> value) {
-  if (!value.ok()) {
-    std::fprintf(stderr, "%s\n", value.status().ToString().c_str());
-    std::exit(1);
-  }
-  return *std::move(value);
-}
-
-class Folder {
- public:
-  Folder() : path_((std::filesystem::temp_directory_path() / "truepose-bench.XXXXXX").string()) {
-    if (mkdtemp(path_.data()) == nullptr) std::exit(1);
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  std::string File(const char* name) const { return path_ + "/" + name; }
-
- private:
-  std::string path_;
-};
-
-std::unique_ptr<server::Server> StartServer(const Folder& folder) {
-  server::ServerOptions options;
-  options.dev_open = true;
-  options.listen = "127.0.0.1:0";
-  options.database = folder.File("truepose.db");
-  return Demand(server::Server::Start(options, server::CalibrationRunner()));
-}
 
 formats::RobotFile AddRobot(const client::Client& client) {
   formats::RobotFile file =

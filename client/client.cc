@@ -8,6 +8,7 @@
 #include "client/client_impl.h"
 #include "client/status.h"
 #include "client/token_file.h"
+#include "client/uuid.h"
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
 
@@ -24,6 +25,13 @@ struct Target {
   int factor;  // of the time that a call may take
 };
 
+// A repeat of a request with an id gets the first answer, so what changes something gets one.
+template <typename Request>
+Request WithRequestId(Request request) {
+  if (request.request_id().empty()) request.set_request_id(RandomUuid());
+  return request;
+}
+
 // One unary call of `stub` with the deadline, the metadata and the statuses of this library.
 template <typename Stub, typename Request, typename Response>
 absl::StatusOr<Response> Call(const Target& target, Stub& stub,
@@ -35,7 +43,12 @@ absl::StatusOr<Response> Call(const Target& target, Stub& stub,
                        target.options.call_timeout * target.factor);
   PrepareContext(context, target.options);
   Response response;
-  const grpc::Status status = (stub.*method)(&context, request, &response);
+  grpc::Status status;
+  if constexpr (requires { request.request_id(); }) {
+    status = (stub.*method)(&context, WithRequestId(request), &response);
+  } else {
+    status = (stub.*method)(&context, request, &response);
+  }
   if (!status.ok()) return FromGrpcStatus(status, target.address);
   return response;
 }
@@ -54,14 +67,18 @@ absl::StatusOr<Client> Client::Connect(const std::string& address, ClientOptions
   return Client(MakeChannel(address), address, options);
 }
 
-Client::Impl::Impl(std::shared_ptr<grpc::Channel> channel, std::string server, ClientOptions limits)
+Client::Impl::Impl(std::shared_ptr<grpc::Channel> connection, std::string server,
+                   ClientOptions limits)
     : address(std::move(server)),
       options(limits),
+      channel(std::move(connection)),
       robots(v1::RobotService::NewStub(channel)),
       sessions(v1::SessionService::NewStub(channel)),
       calibrations(v1::CalibrationService::NewStub(channel)),
       admin(v1::AdminService::NewStub(channel)),
-      recalibrations(v1::RecalibrationService::NewStub(channel)) {}
+      recalibrations(v1::RecalibrationService::NewStub(channel)),
+      downloads(v1::DownloadService::NewStub(channel)),
+      watches(v1::WatchService::NewStub(channel)) {}
 
 Client::Client(std::shared_ptr<grpc::Channel> channel, std::string address, ClientOptions options)
     : impl_(std::make_unique<Impl>(std::move(channel), std::move(address), options)) {}
@@ -107,6 +124,11 @@ TRUEPOSE_CALIBRATION_CALL(ListCalibrationJobs, ListCalibrationJobsResponse, 1)
 TRUEPOSE_CALIBRATION_CALL(CancelCalibrationJob, CalibrationJob, 1)
 TRUEPOSE_CALIBRATION_CALL(GetCalibration, Calibration, 1)
 TRUEPOSE_CALIBRATION_CALL(ListCalibrations, ListCalibrationsResponse, 1)
+TRUEPOSE_CALIBRATION_CALL(ApproveCalibration, Calibration, 1)
+TRUEPOSE_CALIBRATION_CALL(RejectCalibration, Calibration, 1)
+TRUEPOSE_CALIBRATION_CALL(ActivateCalibration, Calibration, 1)
+TRUEPOSE_CALIBRATION_CALL(RollBackCalibration, Calibration, 1)
+TRUEPOSE_CALIBRATION_CALL(CompareCalibrations, CompareCalibrationsResponse, kComputeFactor)
 TRUEPOSE_CALIBRATION_CALL(Evaluate, Evaluation, kComputeFactor)
 TRUEPOSE_CALIBRATION_CALL(Compensate, CompensateResponse, kComputeFactor)
 TRUEPOSE_ADMIN_CALL(Bootstrap, CreateTokenResponse)

@@ -3,9 +3,10 @@
 // A status has the code that the server chose by what the caller should do, and carries every fault
 // of the request (core/base/fault.h: FaultsOf), so a remote answer prints the same lines as a local
 // one. When no server answers the code is kUnavailable and the message names the address. A call
-// that failed with kUnavailable or kDeadlineExceeded may or may not have taken effect; every create
-// takes an id made by the caller, so repeating it is harmless. Only calls that are idempotent by
-// contract are repeated here (service_config.h).
+// that failed with kUnavailable or kDeadlineExceeded may or may not have taken effect. A request
+// that changes something gets a request_id here unless it has one, so the repeats of one call
+// (service_config.h) have one effect and one answer; who wants to repeat a call as a whole gives
+// the request_id.
 //
 // A Client may be used by many threads at once.
 #pragma once
@@ -18,12 +19,15 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "google/protobuf/message.h"
 #include "truepose/v1/admin_services.pb.h"
 #include "truepose/v1/calibration.pb.h"
+#include "truepose/v1/download_services.pb.h"
 #include "truepose/v1/recalibration_services.pb.h"
 #include "truepose/v1/robot.pb.h"
 #include "truepose/v1/services.pb.h"
 #include "truepose/v1/session.pb.h"
+#include "truepose/v1/watch.pb.h"
 
 namespace grpc {
 class Channel;
@@ -86,6 +90,16 @@ class Client {
   absl::StatusOr<v1::Calibration> GetCalibration(const v1::GetCalibrationRequest& request) const;
   absl::StatusOr<v1::ListCalibrationsResponse> ListCalibrations(
       const v1::ListCalibrationsRequest& request) const;
+  absl::StatusOr<v1::Calibration> ApproveCalibration(
+      const v1::ApproveCalibrationRequest& request) const;
+  absl::StatusOr<v1::Calibration> RejectCalibration(
+      const v1::RejectCalibrationRequest& request) const;
+  absl::StatusOr<v1::Calibration> ActivateCalibration(
+      const v1::ActivateCalibrationRequest& request) const;
+  absl::StatusOr<v1::Calibration> RollBackCalibration(
+      const v1::RollBackCalibrationRequest& request) const;
+  absl::StatusOr<v1::CompareCalibrationsResponse> CompareCalibrations(
+      const v1::CompareCalibrationsRequest& request) const;
   absl::StatusOr<v1::Evaluation> Evaluate(const v1::EvaluateRequest& request) const;
   absl::StatusOr<v1::CompensateResponse> Compensate(const v1::CompensateRequest& request) const;
 
@@ -135,6 +149,22 @@ class Client {
   absl::Status WatchCalibrationJob(const std::string& name,
                                    const std::function<bool(const v1::CalibrationJob&)>& on_job,
                                    const std::function<bool()>& is_cancelled = {}) const;
+
+  // Any unary RPC of the API, for programs that treat all kinds of resources alike.
+  // @param method such as "truepose.v1.PlantService/CreateInstrument".
+  // @param response of the method's output type; unspecified after an error.
+  absl::Status CallMethod(const std::string& method, const google::protobuf::Message& request,
+                          google::protobuf::Message* response) const;
+
+  // One stream of what changes, as WatchCalibrationJob. watch.h connects again; most callers want
+  // that.
+  absl::Status Watch(const v1::WatchRequest& request,
+                     const std::function<bool(const v1::WatchResponse&)>& on_response,
+                     const std::function<bool()>& is_cancelled = {}) const;
+
+  // One stream of chunks; `on_chunk` ends it by returning false. download.h is the whole download.
+  absl::Status ReadDownload(const v1::DownloadRequest& request,
+                            const std::function<bool(const v1::DownloadResponse&)>& on_chunk) const;
 
   // A stream of batches; append_readings.h is the whole upload.
   std::unique_ptr<AppendStream> OpenAppendStream() const;

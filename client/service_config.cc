@@ -9,20 +9,28 @@
 namespace truepose::client {
 namespace {
 
-struct Idempotent {
+// Every unary call: what changes something carries a request id (client.h). Streams go on where
+// they broke off, which takes more than a repeat.
+struct Repeatable {
   const char* service;
-  std::vector<const char*> methods;
+  std::vector<const char*> methods;  // none = all
 };
 
-const std::vector<Idempotent>& IdempotentCalls() {
-  static const auto& calls = *new std::vector<Idempotent>{
-      {"truepose.v1.RobotService",
-       {"CreateRobot", "GetRobot", "ListRobots", "GetNominalRevision", "ListNominalRevisions"}},
+const std::vector<Repeatable>& RepeatableCalls() {
+  static const auto& calls = *new std::vector<Repeatable>{
+      {"truepose.v1.RobotService", {}},
+      {"truepose.v1.PlantService", {}},
       {"truepose.v1.SessionService",
-       {"CreateSession", "GetSession", "ListSessions", "SealSession", "ListReadings"}},
+       {"CreateSession", "GetSession", "ListSessions", "SealSession", "ListReadings",
+        "UpdateSession", "DeleteSession", "UndeleteSession"}},
       {"truepose.v1.CalibrationService",
        {"CreateCalibrationJob", "GetCalibrationJob", "ListCalibrationJobs", "CancelCalibrationJob",
-        "GetCalibration", "ListCalibrations", "Evaluate", "Compensate", "CompareCalibrations"}},
+        "GetCalibration", "ListCalibrations", "ApproveCalibration", "RejectCalibration",
+        "ActivateCalibration", "RollBackCalibration", "Evaluate", "Compensate",
+        "CompareCalibrations"}},
+      {"truepose.v1.RecalibrationService", {}},
+      // A new token is shown once, so a repeat would make another one.
+      {"truepose.v1.AdminService", {"ListTokens", "RevokeToken", "GetServerStatus"}},
   };
   return calls;
 }
@@ -35,7 +43,10 @@ constexpr char kRetryPolicy[] =
 
 std::string ServiceConfigJson() {
   std::vector<std::string> names;
-  for (const Idempotent& calls : IdempotentCalls()) {
+  for (const Repeatable& calls : RepeatableCalls()) {
+    if (calls.methods.empty()) {
+      names.push_back(absl::StrCat(R"({"service":")", calls.service, R"("})"));
+    }
     for (const char* method : calls.methods) {
       names.push_back(
           absl::StrCat(R"({"service":")", calls.service, R"(","method":")", method, R"("})"));

@@ -1,4 +1,4 @@
-// The two calls of Client that are streams.
+// The calls of Client that are streams.
 #include <atomic>
 #include <chrono>
 #include <thread>
@@ -43,6 +43,23 @@ class CancelWatcher {
   std::thread thread_;
 };
 
+// Reads to the end of the stream, or until `on_message` wants no more, which is OK.
+template <typename Message>
+absl::Status ReadAll(ClientContext& context, grpc::ClientReader<Message>& stream,
+                     const std::function<bool(const Message&)>& on_message,
+                     const std::function<bool()>& is_cancelled, const std::string& address) {
+  CancelWatcher watcher(context, is_cancelled);
+  Message message;
+  bool wanted = true;
+  while (wanted && stream.Read(&message)) wanted = on_message(message);
+  const bool cancelled = watcher.Join();
+  if (!wanted) context.TryCancel();
+  const grpc::Status status = stream.Finish();
+  if (!wanted) return absl::OkStatus();
+  if (cancelled) return absl::CancelledError("the watch was ended by its caller");
+  return FromGrpcStatus(status, address);
+}
+
 class GrpcAppendStream : public AppendStream {
  public:
   GrpcAppendStream(v1::SessionService::Stub& stub, std::string address,
@@ -86,16 +103,25 @@ absl::Status Client::WatchCalibrationJob(
   v1::WatchCalibrationJobRequest request;
   request.set_name(name);
   const auto stream = impl_->calibrations->WatchCalibrationJob(&context, request);
-  CancelWatcher watcher(context, is_cancelled);
-  v1::CalibrationJob job;
-  bool wanted = true;
-  while (wanted && stream->Read(&job)) wanted = on_job(job);
-  const bool cancelled = watcher.Join();
-  if (!wanted) context.TryCancel();
-  const grpc::Status status = stream->Finish();
-  if (!wanted) return absl::OkStatus();
-  if (cancelled) return absl::CancelledError("the watch was ended by its caller");
-  return FromGrpcStatus(status, impl_->address);
+  return ReadAll(context, *stream, on_job, is_cancelled, impl_->address);
+}
+
+absl::Status Client::Watch(const v1::WatchRequest& request,
+                           const std::function<bool(const v1::WatchResponse&)>& on_response,
+                           const std::function<bool()>& is_cancelled) const {
+  ClientContext context;
+  PrepareContext(context, impl_->options);
+  const auto stream = impl_->watches->Watch(&context, request);
+  return ReadAll(context, *stream, on_response, is_cancelled, impl_->address);
+}
+
+absl::Status Client::ReadDownload(
+    const v1::DownloadRequest& request,
+    const std::function<bool(const v1::DownloadResponse&)>& on_chunk) const {
+  ClientContext context;
+  PrepareContext(context, impl_->options);
+  const auto stream = impl_->downloads->Download(&context, request);
+  return ReadAll(context, *stream, on_chunk, {}, impl_->address);
 }
 
 std::unique_ptr<AppendStream> Client::OpenAppendStream() const {

@@ -1,14 +1,11 @@
 #include "client/cli/names.h"
 
 #include <algorithm>
-#include <array>
-#include <random>
 #include <vector>
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
-#include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
 #include "absl/strings/str_split.h"
 #include "core/base/fault.h"
@@ -61,16 +58,6 @@ std::string RobotOf(absl::string_view name) {
   const std::vector<absl::string_view> parts = absl::StrSplit(name, '/');
   if (parts.size() < 2) return std::string(name);
   return absl::StrCat(parts[0], "/", parts[1]);
-}
-
-std::string RandomUuid() {
-  std::random_device random;
-  std::array<unsigned, 4> words;
-  for (unsigned& word : words) word = random();
-  words[1] = (words[1] & 0xFFFF0FFFu) | 0x00004000u;  // version 4
-  words[2] = (words[2] & 0x3FFFFFFFu) | 0x80000000u;  // variant of RFC 4122
-  return absl::StrFormat("%08x-%04x-%04x-%04x-%04x%08x", words[0], words[1] >> 16,
-                         words[1] & 0xFFFFu, words[2] >> 16, words[2] & 0xFFFFu, words[3]);
 }
 
 }  // namespace truepose::cli

@@ -5,6 +5,7 @@
 
 #include "absl/status/statusor.h"
 #include "absl/strings/string_view.h"
+#include "client/uuid.h"
 
 namespace truepose::cli {
 
@@ -27,7 +28,6 @@ std::string ShortName(absl::string_view name);
 // The robot of "robots/ur10/calibrations/1" or "robots/ur10/nominals/2": "robots/ur10".
 std::string RobotOf(absl::string_view name);
 
-// A random UUID (version 4) in lower case.
-std::string RandomUuid();
+using client::RandomUuid;
 
 }  // namespace truepose::cli

@@ -6,6 +6,7 @@
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
 #include "client/cli/names.h"
+#include "client/cli/report.h"
 #include "client/cli/table.h"
 
 namespace truepose::cli {
@@ -94,6 +95,19 @@ std::string FindingsText(const v1::Calibration& calibration) {
   AppendSection("Parameters that the readings hardly tell apart", CorrelationsText(report), &text);
   AppendSection("Readings that do not fit the others (rows count from 0, as in --split)",
                 SuspectsText(calibration), &text);
+  return text;
+}
+
+std::string PreviewText(const v1::JobPreview& preview) {
+  v1::CalibrationReport report;
+  *report.mutable_redundancies() = preview.redundancies();
+  std::string text = absl::StrCat(
+      "Preview: nothing was run. ", Count(preview.readings(), "reading"), " determine ",
+      Count(preview.identifiable_size(), "parameter"), " of base, tool and robot.\n");
+  AppendSection("Number of parameters", CountsText(preview.counts()), &text);
+  AppendSection("Parameters that would be identified",
+                absl::StrCat(kIndent, absl::StrJoin(preview.identifiable(), " "), "\n"), &text);
+  AppendSection("Parameters that stay at nominal", RedundanciesText(report), &text);
   return text;
 }
 

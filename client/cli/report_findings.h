@@ -11,6 +11,9 @@ namespace truepose::cli {
 // session as it was named and the row as sessions and --split count it, from 0.
 std::string FindingsText(const v1::Calibration& calibration);
 
+// A job that was only looked at: counts, what the readings determine, and what stays at nominal.
+std::string PreviewText(const v1::JobPreview& preview);
+
 // Contact readings against their own places; "" without a fixture.
 std::string PlacesText(const v1::CalibrationReport& report);
 

@@ -12,6 +12,7 @@ constexpr char kRobotService[] = "truepose.v1.RobotService";
 constexpr char kSessionService[] = "truepose.v1.SessionService";
 constexpr char kCalibrationService[] = "truepose.v1.CalibrationService";
 constexpr char kPlantService[] = "truepose.v1.PlantService";
+constexpr char kDownloadService[] = "truepose.v1.DownloadService";
 constexpr char kWatchService[] = "truepose.v1.WatchService";
 constexpr char kRecalibrationService[] = "truepose.v1.RecalibrationService";
 constexpr char kAdminService[] = "truepose.v1.AdminService";
@@ -85,6 +86,7 @@ constexpr AccessRow kTable[] = {
     {kPlantService, "UpdatePoseSet", kToken},
     {kPlantService, "DeletePoseSet", kToken},
     {kPlantService, "UndeletePoseSet", kToken},
+    {kDownloadService, "Download", kToken},
     {kWatchService, "Watch", kToken},
     {kRecalibrationService, "CreateRobotEvent", kToken},
     {kRecalibrationService, "GetRobotEvent", kToken},

@@ -6,6 +6,7 @@
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
 #include "google/protobuf/util/message_differencer.h"
+#include "server/resource/etag.h"
 #include "server/resource/field_mask.h"
 #include "server/resource/filter.h"
 #include "server/resource/resource_name.h"
@@ -39,13 +40,6 @@ absl::Status CheckParent(store::Snapshot& snapshot, const store::ResourceKey& ke
   const absl::Status found = store::GetRobot(snapshot, store::RobotName(key.robot_id)).status();
   if (!absl::IsNotFound(found)) return found;
   return store::NotFound(store::RobotName(key.robot_id), "parent");
-}
-
-absl::Status CheckEtag(const Message& stored, const std::string& etag) {
-  const std::string now = GetText(stored, "etag");
-  if (etag.empty() || etag == now) return absl::OkStatus();
-  return store::Refusal(absl::StatusCode::kAborted, "etag", etag,
-                        absl::StrCat(now, ": it was changed meanwhile; get it again"));
 }
 
 absl::Status Put(store::Transaction& transaction, const ResourceType& type,
@@ -107,7 +101,7 @@ absl::Status Update(store::Transaction& transaction, const ResourceType& type,
   const std::string name_field = absl::StrCat(field, ".name");
   TRUEPOSE_RETURN_IF_ERROR(
       GetLive(transaction, type, GetText(changes, "name"), name_field, resource));
-  TRUEPOSE_RETURN_IF_ERROR(CheckEtag(resource, GetText(changes, "etag")));
+  TRUEPOSE_RETURN_IF_ERROR(CheckEtag(GetText(resource, "etag"), GetText(changes, "etag")));
   const std::unique_ptr<Message> before(resource.New());
   before->CopyFrom(resource);
   TRUEPOSE_RETURN_IF_ERROR(ApplyUpdate(changes, mask, type.output_only, resource));
@@ -125,7 +119,7 @@ absl::Status Replace(store::Transaction& transaction, const ResourceType& type, 
 absl::Status Delete(store::Transaction& transaction, const ResourceType& type,
                     const std::string& name, const std::string& etag, Message& resource) {
   TRUEPOSE_RETURN_IF_ERROR(Get(transaction, type, name, "name", resource));
-  TRUEPOSE_RETURN_IF_ERROR(CheckEtag(resource, etag));
+  TRUEPOSE_RETURN_IF_ERROR(CheckEtag(GetText(resource, "etag"), etag));
   if (IsDeleted(resource)) return absl::OkStatus();
   SetDeleted(transaction, true, resource);
   return Replace(transaction, type, resource);

@@ -33,7 +33,7 @@ class AppendStream {
   // the commit; at once when there is nothing to store.
   // @returns (to `done`) kInvalidArgument with every fault of the message; kNotFound for a session;
   //   kAborted for readings that are stored with another content; kOutOfRange for a gap;
-  //   kFailedPrecondition for new readings of a sealed session.
+  //   kFailedPrecondition for new readings of a sealed or deleted session.
   void Append(const v1::AppendReadingsRequest& request, Done done);
 
  private:

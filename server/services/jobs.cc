@@ -146,8 +146,9 @@ absl::StatusOr<v1::CalibrationJob> GetCalibrationJob(const CallContext& call,
 
 absl::StatusOr<v1::ListCalibrationJobsResponse> ListCalibrationJobs(
     const CallContext& call, const v1::ListCalibrationJobsRequest& request) {
+  TRUEPOSE_ASSIGN_OR_RETURN(const auto filter, FilterOf<v1::CalibrationJob>(request));
   TRUEPOSE_ASSIGN_OR_RETURN(auto page, call.store.Read([&](Snapshot& snapshot) {
-    return store::ListJobs(snapshot, request.robot(), PageOf(request));
+    return store::ListJobs(snapshot, request.robot(), PageOf(request), filter);
   }));
   return ToResponse(std::move(page), &v1::ListCalibrationJobsResponse::mutable_jobs);
 }

@@ -1,6 +1,5 @@
 #include "server/services/live.h"
 
-#include "absl/strings/str_cat.h"
 #include "core/base/status_macros.h"
 #include "server/store/message.h"
 #include "server/store/names.h"
@@ -15,12 +14,6 @@ absl::StatusOr<v1::Robot> GetLiveRobot(store::Snapshot& snapshot, const std::str
   if (absl::IsNotFound(robot.status()) || (robot.ok() && robot->has_delete_time()))
     return store::NotFound(name, field);
   return robot;
-}
-
-absl::Status CheckEtag(const std::string& stored, const std::string& asked) {
-  if (asked.empty() || asked == stored) return absl::OkStatus();
-  return store::Refusal(absl::StatusCode::kAborted, "etag", asked,
-                        absl::StrCat(stored, ": it was changed meanwhile; get it again"));
 }
 
 }  // namespace truepose::services

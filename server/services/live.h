@@ -13,7 +13,4 @@ namespace truepose::services {
 absl::StatusOr<v1::Robot> GetLiveRobot(store::Snapshot& snapshot, const std::string& name,
                                        const std::string& field);
 
-// @returns kAborted with a fault of `etag` when the caller knows another state; "" knows none.
-absl::Status CheckEtag(const std::string& stored, const std::string& asked);
-
 }  // namespace truepose::services

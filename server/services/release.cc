@@ -8,6 +8,7 @@
 #include "convert/flange_change.h"
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
+#include "server/resource/etag.h"
 #include "server/services/closures.h"
 #include "server/services/live.h"
 #include "server/services/release_rules.h"
@@ -46,7 +47,7 @@ template <typename Request>
 absl::StatusOr<v1::Calibration> Asked(Snapshot& snapshot, const Request& request) {
   TRUEPOSE_ASSIGN_OR_RETURN(v1::Calibration calibration,
                             store::GetCalibration(snapshot, request.name()));
-  TRUEPOSE_RETURN_IF_ERROR(CheckEtag(calibration.etag(), request.etag()));
+  TRUEPOSE_RETURN_IF_ERROR(resource::CheckEtag(calibration.etag(), request.etag()));
   return calibration;
 }
 

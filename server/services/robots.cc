@@ -9,6 +9,7 @@
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
 #include "google/protobuf/util/message_differencer.h"
+#include "server/resource/etag.h"
 #include "server/resource/field_mask.h"
 #include "server/services/closures.h"
 #include "server/services/live.h"
@@ -49,7 +50,7 @@ void CheckSettings(const v1::Robot& robot, FaultList& faults) {
 absl::StatusOr<v1::Robot> Update(Transaction& transaction, const v1::UpdateRobotRequest& request) {
   TRUEPOSE_ASSIGN_OR_RETURN(v1::Robot robot,
                             GetLiveRobot(transaction, request.robot().name(), "robot.name"));
-  TRUEPOSE_RETURN_IF_ERROR(CheckEtag(robot.etag(), request.robot().etag()));
+  TRUEPOSE_RETURN_IF_ERROR(resource::CheckEtag(robot.etag(), request.robot().etag()));
   const v1::Robot before = robot;
   TRUEPOSE_RETURN_IF_ERROR(
       resource::ApplyUpdate(request.robot(), request.update_mask(), OutputOnly(), robot));
@@ -77,7 +78,7 @@ absl::Status CheckNoJobs(Transaction& transaction, const std::string& robot) {
 absl::StatusOr<v1::Robot> SetDeleted(Transaction& transaction, const std::string& name,
                                      const std::string& etag, bool deleted) {
   TRUEPOSE_ASSIGN_OR_RETURN(v1::Robot robot, store::GetRobot(transaction, name));
-  TRUEPOSE_RETURN_IF_ERROR(CheckEtag(robot.etag(), etag));
+  TRUEPOSE_RETURN_IF_ERROR(resource::CheckEtag(robot.etag(), etag));
   if (robot.has_delete_time() == deleted) return robot;
   if (deleted) TRUEPOSE_RETURN_IF_ERROR(CheckNoJobs(transaction, name));
   robot.clear_delete_time();

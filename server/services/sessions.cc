@@ -8,6 +8,7 @@
 #include "convert/run.h"
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
+#include "server/resource/etag.h"
 #include "server/resource/field_mask.h"
 #include "server/resource/registry.h"
 #include "server/resource/standard_methods.h"
@@ -48,7 +49,7 @@ absl::StatusOr<v1::Session> Update(Transaction& transaction,
   TRUEPOSE_ASSIGN_OR_RETURN(v1::Session session,
                             store::GetSession(transaction, request.session().name()));
   if (session.has_delete_time()) return store::NotFound(session.name(), "session.name");
-  TRUEPOSE_RETURN_IF_ERROR(CheckEtag(session.etag(), request.session().etag()));
+  TRUEPOSE_RETURN_IF_ERROR(resource::CheckEtag(session.etag(), request.session().etag()));
   if (session.state() != v1::OPEN) {
     return store::Refusal(absl::StatusCode::kFailedPrecondition, "session.name",
                           absl::StrCat(session.name(), ", which is sealed"), "an open session");
@@ -61,7 +62,7 @@ absl::StatusOr<v1::Session> Update(Transaction& transaction,
 absl::StatusOr<v1::Session> SetDeleted(Transaction& transaction, const std::string& name,
                                        const std::string& etag, bool deleted) {
   TRUEPOSE_ASSIGN_OR_RETURN(v1::Session session, store::GetSession(transaction, name));
-  TRUEPOSE_RETURN_IF_ERROR(CheckEtag(session.etag(), etag));
+  TRUEPOSE_RETURN_IF_ERROR(resource::CheckEtag(session.etag(), etag));
   if (session.has_delete_time() == deleted) return session;
   session.clear_delete_time();
   if (deleted) *session.mutable_delete_time() = store::ToTimestamp(transaction.now());

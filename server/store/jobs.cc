@@ -121,22 +121,22 @@ absl::StatusOr<v1::CalibrationJob> GetJob(Snapshot& snapshot, std::string_view n
 }
 
 absl::StatusOr<Page<v1::CalibrationJob>> ListJobs(Snapshot& snapshot, std::string_view robot,
-                                                  const PageRequest& request) {
+                                                  const PageRequest& request,
+                                                  const ListFilter<v1::CalibrationJob>& filter) {
   TRUEPOSE_ASSIGN_OR_RETURN(const std::string robot_id, RobotFilter(snapshot, robot));
-  const ListId id{"jobs", robot_id};
+  const ListId id{"jobs", absl::StrCat(robot_id, "|", filter.Key())};
   TRUEPOSE_ASSIGN_OR_RETURN(const PageStart start, CheckPage(id, request));
   TRUEPOSE_ASSIGN_OR_RETURN(const int64_t before,
                             AfterNumber(start, std::numeric_limits<int64_t>::max()));
   const char* sql =
       robot_id.empty() ? "SELECT sequence, message FROM jobs WHERE $1 = '' AND sequence < $2 "
-                         "ORDER BY sequence DESC LIMIT $3"
+                         "ORDER BY sequence DESC"
                        : "SELECT sequence, message FROM jobs WHERE robot_id = $1 AND sequence < $2 "
-                         "ORDER BY sequence DESC LIMIT $3";
-  TRUEPOSE_ASSIGN_OR_RETURN(auto rows,
-                            sql::Query(snapshot.sql(), sql, robot_id, before, start.size + 1));
-  return ReadPage<v1::CalibrationJob>(id, start.size, *rows, [](const sql::Statement& row) {
-    return ReadMessage<v1::CalibrationJob>(row, 1);
-  });
+                         "ORDER BY sequence DESC";
+  TRUEPOSE_ASSIGN_OR_RETURN(auto rows, sql::Query(snapshot.sql(), sql, robot_id, before));
+  return ReadFilteredPage<v1::CalibrationJob>(
+      id, start.size, *rows, filter,
+      [](const sql::Statement& row) { return ReadMessage<v1::CalibrationJob>(row, 1); });
 }
 
 absl::Status UpdateJob(Transaction& transaction, v1::CalibrationJob& job, Lease lease) {

@@ -10,6 +10,7 @@
 
 #include "absl/status/statusor.h"
 #include "absl/time/time.h"
+#include "server/store/list.h"
 #include "server/store/page.h"
 #include "server/store/transaction.h"
 #include "truepose/v1/calibration.pb.h"
@@ -32,8 +33,9 @@ absl::StatusOr<v1::CalibrationJob> CreateJob(Transaction& transaction, std::stri
                                              const v1::CalibrationJob& job);
 absl::StatusOr<v1::CalibrationJob> GetJob(Snapshot& snapshot, std::string_view name);
 // Newest first; `robot` = "" lists those of all robots.
-absl::StatusOr<Page<v1::CalibrationJob>> ListJobs(Snapshot& snapshot, std::string_view robot,
-                                                  const PageRequest& request);
+absl::StatusOr<Page<v1::CalibrationJob>> ListJobs(
+    Snapshot& snapshot, std::string_view robot, const PageRequest& request,
+    const ListFilter<v1::CalibrationJob>& filter = {});
 
 // All that the job needs to run, as frozen at its creation.
 // @returns kDataLoss when a session isn't what was frozen.

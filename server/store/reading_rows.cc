@@ -13,6 +13,11 @@ namespace {
 
 absl::Status CheckOpen(Snapshot& snapshot, Key key) {
   TRUEPOSE_ASSIGN_OR_RETURN(const v1::Session session, ReadSessionMessage(snapshot, key));
+  if (session.has_delete_time()) {
+    return Refusal(absl::StatusCode::kFailedPrecondition, "session",
+                   absl::StrCat(session.name(), ", which is deleted"),
+                   "a session that is not; undelete it, then send again");
+  }
   if (session.state() == v1::OPEN) return absl::OkStatus();
   return Refusal(absl::StatusCode::kFailedPrecondition, "session",
                  absl::StrCat(session.name(), ", which is sealed"), "an open session");

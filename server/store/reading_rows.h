@@ -25,7 +25,7 @@ absl::Status CompareRows(Snapshot& snapshot, Key session, const ReadingBatch& ba
                          std::string_view field, FaultList& faults);
 
 // Stores the placed readings with the transaction's time.
-// @returns kFailedPrecondition with a fault of `session` when that is sealed.
+// @returns kFailedPrecondition with a fault of `session` when that is sealed or deleted.
 absl::Status InsertRows(Transaction& transaction, Key session, const ReadingBatch& batch,
                         Placed placed);
 

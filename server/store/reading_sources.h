@@ -33,7 +33,8 @@ struct SourceProgress {
 // @returns kNotFound for a session that was never created, or is not in a restored store any more;
 //   kOutOfRange with a fault of `first_sequence` and the error metadata `expected_sequence` for a
 //   gap; kAborted with a fault `readings[i].sequence` for each reading that is stored with another
-//   content or in another session; kFailedPrecondition for new readings of a sealed session.
+//   content or in another session; kFailedPrecondition for new readings of a sealed or
+//   deleted session.
 //   Nothing of the batch is stored then.
 absl::StatusOr<SourceProgress> AppendFromSource(Transaction& transaction, const SourceBatch& batch);
 

@@ -18,7 +18,7 @@ namespace truepose::store {
 // @returns the number of readings now stored; kNotFound; kOutOfRange with a fault for a gap before
 // or within the
 //   batch; kAborted with a fault for each row that is stored with other bytes; kFailedPrecondition
-//   for new rows of a sealed session.
+//   for new rows of a sealed or deleted session.
 absl::StatusOr<int> AppendReadings(Transaction& transaction, std::string_view session_name,
                                    const ReadingBatch& batch);
 

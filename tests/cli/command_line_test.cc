@@ -31,6 +31,23 @@ const std::vector<std::vector<std::string>>& Commands() {
                                                 {"calibration", "list"},
                                                 {"calibration", "show"},
                                                 {"calibration", "convert"},
+                                                {"calibration", "approve"},
+                                                {"calibration", "reject"},
+                                                {"calibration", "activate"},
+                                                {"calibration", "rollback"},
+                                                {"calibration", "history"},
+                                                {"calibration", "compare"},
+                                                {"robot", "update"},
+                                                {"robot", "delete"},
+                                                {"session", "export"},
+                                                {"session", "undelete"},
+                                                {"instrument", "create"},
+                                                {"tool", "show"},
+                                                {"fixture", "update"},
+                                                {"target", "delete"},
+                                                {"placement", "undelete"},
+                                                {"pose-set", "list"},
+                                                {"watch"},
                                                 {"version"}};
   return *commands;
 }
@@ -49,7 +66,8 @@ TEST(Help, OfEveryCommandHasAnExample) {
 
 // Would catch a group of commands that ends with the text of the whole program.
 TEST(Help, OfAGroupIsAboutTheGroup) {
-  for (const char* group : {"reproduce", "robot", "session", "job", "calibration"}) {
+  for (const char* group :
+       {"reproduce", "robot", "session", "job", "calibration", "instrument", "pose-set"}) {
     const Ran ran = RunCli({group, "--help"});
     EXPECT_EQ(ran.code, 0);
     EXPECT_THAT(ran.out, ::testing::Not(HasSubstr("Exit codes"))) << group;

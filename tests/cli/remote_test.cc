@@ -2,14 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <memory>
-
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_replace.h"
-#include "server/calibration_runner.h"
-#include "server/server.h"
-#include "tests/cli/run.h"
-#include "tests/cli/temp_folder.h"
+#include "tests/cli/remote_fixture.h"
 
 namespace truepose::cli {
 namespace {
@@ -17,48 +12,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-constexpr char kUuid[] = "11111111-2222-4333-8444-555555555555";
-constexpr char kOtherUuid[] = "11111111-2222-4333-8444-666666666666";
-
-class RemoteTest : public ::testing::Test {
- protected:
-  void SetUp() override {
-    server::ServerOptions options;
-    options.dev_open = true;
-    options.listen = absl::StrCat("unix:", folder_.Path("socket"));
-    options.database = ":memory:";
-    auto started = server::Server::Start(options, server::CalibrationRunner());
-    ASSERT_TRUE(started.ok()) << started.status();
-    server_ = *std::move(started);
-    ASSERT_EQ(
-        RunCli({"simulate", robot_, "--poses", "40", "--seed", "5", "--output", session_}).code, 0);
-  }
-
-  Ran Remote(std::vector<std::string> line) const {
-    line.insert(line.end(), {"--server", server_->address()});
-    return RunCli(line);
-  }
-
-  void AddRobot() const {
-    const Ran ran = Remote({"robot", "add", robot_});
-    ASSERT_EQ(ran.code, 0) << ran.err;
-  }
-  void Import() const {
-    const Ran ran =
-        Remote({"session", "import", session_, "--robot", "ur10", "--session-id", kUuid});
-    ASSERT_EQ(ran.code, 0) << ran.err;
-  }
-  void Calibrate() const {
-    const Ran ran =
-        Remote({"calibrate", "--robot", "ur10", "--session", kUuid, "--split", "even-odd"});
-    ASSERT_EQ(ran.code, 0) << ran.err;
-  }
-
-  const TempFolder folder_;
-  const std::string robot_ = Example("ur10.yaml");
-  const std::string session_ = folder_.Path("session.csv");
-  std::unique_ptr<server::Server> server_;
-};
+using RemoteTest = RemoteFixture;
 
 // The promise that a report means the same wherever it was made: would catch any difference between
 // the two ways.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <utility>
 
 #include "client/channel.h"
@@ -16,15 +17,19 @@ class FakeServer {
   explicit FakeServer(grpc::Service& service) {
     grpc::ServerBuilder builder;
     builder.RegisterService(&service);
+    builder.AddListeningPort("127.0.0.1:0", grpc::InsecureServerCredentials(), &port_);
     server_ = builder.BuildAndStart();
   }
   ~FakeServer() { server_->Shutdown(); }
 
+  // Over a connection: channels within a process repeat nothing.
+  Client Connect() const { return *Client::Connect("127.0.0.1:" + std::to_string(port_)); }
   Client MakeClient(ClientOptions options = {}) const {
     return Client(server_->InProcessChannel(ChannelArguments()), "the fake", options);
   }
 
  private:
+  int port_ = 0;
   std::unique_ptr<grpc::Server> server_;
 };
 

@@ -12,6 +12,7 @@
 #include "client/cli/outcome.h"
 #include "client/cli/reply.h"
 #include "client/cli/report.h"
+#include "client/cli/report_findings.h"
 #include "core/base/status_macros.h"
 
 namespace truepose::cli {
@@ -44,7 +45,8 @@ constexpr char kExamples[] =
   truepose calibrate --local --robot panda.yaml --session panda_3.csv --fixture sockets.yaml \
     --feature-column hole --split even-odd
   truepose calibrate --local --robot ur10.yaml --session after_repair.csv --calibrate dq3 \
-    --prior ur10.calibration.json)";
+    --prior ur10.calibration.json
+  truepose calibrate --local --robot ur10.yaml --session series_C.csv --preview)";
 
 absl::Status CheckUsage(const CalibrateOptions& options) {
   if (options.local && options.no_wait)
@@ -53,6 +55,8 @@ absl::Status CheckUsage(const CalibrateOptions& options) {
     return UsageError(
         "--euler belongs to reading a file: give it to `truepose session import`, or use --local");
   }
+  if (options.preview && (options.no_wait || !options.output.empty()))
+    return UsageError("--preview runs nothing: leave out --no-wait and --output");
   if (options.no_wait && !options.output.empty()) {
     return UsageError("--output needs the result, for which --no-wait does not wait");
   }
@@ -147,6 +151,10 @@ absl::Status Deliver(const Invocation& invocation, const v1::Calibration& calibr
                                       calibration.report().summary().termination()));
 }
 
+absl::Status ReplyPreview(const Invocation& invocation, const v1::JobPreview& preview) {
+  return Reply(invocation, preview, [&] { return PreviewText(preview); });
+}
+
 void AddCalibrate(const Command& root) {
   const auto parsed = std::make_shared<Parsed>();
   CalibrateOptions& options = parsed->options;
@@ -171,6 +179,8 @@ void AddCalibrate(const Command& root) {
       .Option("--urdf-tip", "LINK", &options.ends.tip, kUrdfTipHelp)
       .Option("--output", "FILE", &options.output,
               "Also write the calibration as JSON, for --local commands")
+      .Option("--preview", "", &options.preview,
+              "Only say which parameters these readings determine; nothing runs")
       .Option("--no-wait", "", &options.no_wait, "Print the job and do not wait for it");
   AddIdentificationOptions(command, &options.identification);
   command.Footer(absl::StrCat(kFooter, kIdentificationFooter, kExamples))

@@ -21,7 +21,8 @@ struct CalibrateOptions {
   std::string euler;                  // only with --local: a session on a server is read already
   std::string observe;
   std::string output;
-  bool no_wait = false;    // only remote
+  bool no_wait = false;  // only remote
+  bool preview = false;
   formats::UrdfEnds ends;  // only with --local
   IdentificationOptions identification;
   v1::CalibrationOptions calibration;  // those of `identification` are written by each way
@@ -39,6 +40,9 @@ std::string StageText(const v1::JobProgress& progress);
 
 // nullopt without --output; made before the run, so that a bad place is told before the work.
 absl::StatusOr<std::optional<OutputFile>> OpenOutput(const CalibrateOptions& options);
+
+// What a run would identify, for people, or the JobPreview with --json.
+absl::Status ReplyPreview(const Invocation& invocation, const v1::JobPreview& preview);
 
 // Writes the file and prints the report; with --json the CalibrationReport alone. Then an
 // AnsweredFailure when the run did not converge.

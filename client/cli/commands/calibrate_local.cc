@@ -77,10 +77,18 @@ std::string NextStep(const CalibrateOptions& options) {
                       " --calibration ", options.output);
 }
 
+absl::Status PreviewLocally(const Invocation& invocation, const v1::CalibrationInput& input,
+                            const CalibrateOptions& options) {
+  const absl::StatusOr<v1::JobPreview> preview = convert::RunPreview(input);
+  if (!preview.ok()) return AsFaultOfInput(AsTyped(preview.status(), options));
+  return ReplyPreview(invocation, *preview);
+}
+
 }  // namespace
 
 absl::Status CalibrateLocally(const Invocation& invocation, const CalibrateOptions& options) {
   TRUEPOSE_ASSIGN_OR_RETURN(const v1::CalibrationInput input, LoadInput(invocation, options));
+  if (options.preview) return PreviewLocally(invocation, input, options);
   TRUEPOSE_ASSIGN_OR_RETURN(std::optional<OutputFile> output, OpenOutput(options));
   const absl::StatusOr<v1::Calibration> calibration = RunWithProgress(invocation, input);
   if (!calibration.ok()) return AsFaultOfInput(AsTyped(calibration.status(), options));

@@ -49,6 +49,7 @@ absl::StatusOr<v1::CalibrationJob> CreateJob(const client::Client& client,
   request.set_robot(RobotName(options.robot));
   for (const std::string& session : options.sessions) request.add_sessions(SessionName(session));
   *request.mutable_options() = options.calibration;
+  request.set_validate_only(options.preview);
   TRUEPOSE_RETURN_IF_ERROR(WriteIdentificationOptions(
       options.identification,
       [&](const std::string& typed) -> absl::StatusOr<v1::Calibration> {
@@ -79,6 +80,7 @@ absl::Status CalibrateAndDeliver(const Invocation& invocation, const CalibrateOp
   const InterruptScope interrupt;
   TRUEPOSE_ASSIGN_OR_RETURN(std::optional<OutputFile> output, OpenOutput(options));
   TRUEPOSE_ASSIGN_OR_RETURN(const v1::CalibrationJob created, CreateJob(client, options));
+  if (options.preview) return ReplyPreview(invocation, created.preview());
   if (options.no_wait) return ReplyJob(invocation, created);
   TRUEPOSE_ASSIGN_OR_RETURN(const v1::CalibrationJob job,
                             WaitWithProgress(invocation, client, created.name(), interrupt));

@@ -1,9 +1,12 @@
-// truepose calibration list|show; export and convert are files of their own
+// truepose calibration list|show; the others are files of their own
 #include <memory>
 
+#include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_replace.h"
 #include "client/cli/commands/commands.h"
+#include "client/cli/commands/download.h"
+#include "client/cli/commands/list_options.h"
 #include "client/cli/json.h"
 #include "client/cli/names.h"
 #include "client/cli/output_file.h"
@@ -40,23 +43,27 @@ std::string CalibrationsTable(const v1::ListCalibrationsResponse& list) {
                {"rms mm before"},
                {"after"},
                {"verdict", Align::kLeft},
+               {"state", Align::kLeft},
                {"created", Align::kLeft}});
   for (const v1::Calibration& calibration : list.calibrations()) {
     const v1::CalibrationReport& report = calibration.report();
     const v1::SetReport& set = JudgingSet(report.sets());
-    table.Add(
-        {ShortName(calibration.name()), PartText(calibration.options()),
-         report.split().empty() ? "none" : report.split(), absl::StrCat(set.poses()),
-         Fixed(set.before().position_mm().rms(), 3), Fixed(set.after().position_mm().rms(), 3),
-         absl::StrReplaceAll(report.verdict(), {{"_", " "}}), TimeText(calibration.create_time())});
+    table.Add({ShortName(calibration.name()), PartText(calibration.options()),
+               report.split().empty() ? "none" : report.split(), absl::StrCat(set.poses()),
+               Fixed(set.before().position_mm().rms(), 3),
+               Fixed(set.after().position_mm().rms(), 3),
+               absl::StrReplaceAll(report.verdict(), {{"_", " "}}),
+               absl::AsciiStrToLower(v1::ReleaseState_Name(calibration.state())),
+               TimeText(calibration.create_time())});
   }
   return table.Text();
 }
 
 absl::Status AppendCalibrationsOf(const client::Client& client, const std::string& robot,
-                                  v1::ListCalibrationsResponse* all) {
+                                  const ListOptions& options, v1::ListCalibrationsResponse* all) {
   v1::ListCalibrationsRequest first;
   first.set_robot(robot);
+  SetListOptions(options, first);
   return client::ForEachPage(
       first, [&](const auto& request) { return client.ListCalibrations(request); },
       [&](const v1::ListCalibrationsResponse& page) {
@@ -66,23 +73,25 @@ absl::Status AppendCalibrationsOf(const client::Client& client, const std::strin
 }
 
 // The service lists calibrations by robot.
-absl::Status AppendAllCalibrations(const client::Client& client,
+absl::Status AppendAllCalibrations(const client::Client& client, const ListOptions& options,
                                    v1::ListCalibrationsResponse* all) {
   return client::ForEachPage(
       v1::ListRobotsRequest(), [&](const auto& request) { return client.ListRobots(request); },
       [&](const v1::ListRobotsResponse& page) {
         for (const v1::Robot& robot : page.robots()) {
-          TRUEPOSE_RETURN_IF_ERROR(AppendCalibrationsOf(client, robot.name(), all));
+          TRUEPOSE_RETURN_IF_ERROR(AppendCalibrationsOf(client, robot.name(), options, all));
         }
         return absl::OkStatus();
       });
 }
 
-absl::Status List(const Invocation& invocation, const std::string& robot) {
+absl::Status List(const Invocation& invocation, const ListOptions& options) {
   return WithServer(invocation, kRobotHint, [&](const client::Client& client) -> absl::Status {
     v1::ListCalibrationsResponse all;
-    TRUEPOSE_RETURN_IF_ERROR(robot.empty() ? AppendAllCalibrations(client, &all)
-                                           : AppendCalibrationsOf(client, RobotName(robot), &all));
+    TRUEPOSE_RETURN_IF_ERROR(
+        AsListed(options.robot.empty()
+                     ? AppendAllCalibrations(client, options, &all)
+                     : AppendCalibrationsOf(client, RobotName(options.robot), options, &all)));
     all.clear_next_page_token();
     return Reply(invocation, all, [&] { return CalibrationsTable(all); });
   });
@@ -106,20 +115,19 @@ absl::Status Write(const v1::Calibration& calibration, const std::string& path) 
   return file.Commit(json);
 }
 
-absl::Status Show(const Invocation& invocation, const std::string& name,
+absl::Status Show(const Invocation& invocation, const std::string& typed,
                   const std::string& output) {
-  v1::GetCalibrationRequest request;
-  TRUEPOSE_ASSIGN_OR_RETURN(*request.mutable_name(), CalibrationName(name));
-  return WithServer(invocation, kCalibrationHint,
-                    [&](const client::Client& client) -> absl::Status {
-                      TRUEPOSE_ASSIGN_OR_RETURN(const v1::Calibration calibration,
-                                                client.GetCalibration(request));
-                      TRUEPOSE_RETURN_IF_ERROR(Write(calibration, output));
-                      return Reply(invocation, calibration, [&] {
-                        return absl::StrCat(HeadText(calibration),
-                                            CalibrationText(calibration, invocation.console));
-                      });
-                    });
+  TRUEPOSE_ASSIGN_OR_RETURN(const std::string name, CalibrationName(typed));
+  return WithServer(
+      invocation, kCalibrationHint, [&](const client::Client& client) -> absl::Status {
+        TRUEPOSE_ASSIGN_OR_RETURN(const auto calibration,
+                                  DownloadWhole<v1::Calibration>(invocation, client, name));
+        TRUEPOSE_RETURN_IF_ERROR(Write(calibration, output));
+        return Reply(invocation, calibration, [&] {
+          return absl::StrCat(HeadText(calibration),
+                              CalibrationText(calibration, invocation.console));
+        });
+      });
 }
 
 }  // namespace
@@ -127,13 +135,14 @@ absl::Status Show(const Invocation& invocation, const std::string& name,
 void AddCalibration(const Command& root) {
   const Command calibration = root.Add("calibration", "Results of calibration jobs");
   calibration.Footer("Example:\n  truepose calibration list --robot ur10");
-  const auto robot = std::make_shared<std::string>();
-  calibration.Add("list", "List the calibrations")
-      .Option("--robot", "NAME", robot.get(), "Only of this robot")
-      .Footer(
-          "Examples:\n  truepose calibration list\n  truepose calibration list --robot ur10 --json")
+  const auto options = std::make_shared<ListOptions>();
+  const Command list = calibration.Add("list", "List the calibrations");
+  AddListOptions(list, {.robot = true, .example = "state = \"ACTIVE\""}, options.get());
+  list.Footer(
+          "Examples:\n  truepose calibration list\n"
+          "  truepose calibration list --robot ur10 --filter 'state = \"ACTIVE\"' --json")
       .Run(Command::Reach::kRemote,
-           [robot](const Invocation& invocation) { return List(invocation, *robot); });
+           [options](const Invocation& invocation) { return List(invocation, *options); });
   const auto name = std::make_shared<std::string>();
   const auto output = std::make_shared<std::string>();
   calibration.Add("show", "Show one calibration")
@@ -144,6 +153,8 @@ void AddCalibration(const Command& root) {
           "  truepose calibration show ur10#1 --output ur10.calibration.json")
       .Run(Command::Reach::kRemote,
            [=](const Invocation& invocation) { return Show(invocation, *name, *output); });
+  AddCalibrationRelease(calibration);
+  AddCalibrationCompare(calibration);
   AddCalibrationExport(calibration);
   AddCalibrationConvert(calibration);
 }

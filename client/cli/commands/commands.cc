@@ -17,6 +17,8 @@ void AddAllCommands(const Command& root) {
   AddRecalibration(root);
   AddPolicy(root);
   AddRobotEvent(root);
+  AddWatch(root);
+  AddPlant(root);
   AddSimulate(root);
   AddModel(root);
   AddReproduce(root);

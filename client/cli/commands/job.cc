@@ -5,6 +5,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "client/cli/commands/commands.h"
+#include "client/cli/commands/list_options.h"
 #include "client/cli/commands/wait.h"
 #include "client/cli/names.h"
 #include "client/cli/remote.h"
@@ -67,17 +68,18 @@ std::string JobsTable(const v1::ListCalibrationJobsResponse& list) {
   return table.Text();
 }
 
-absl::Status List(const Invocation& invocation, const std::string& robot) {
+absl::Status List(const Invocation& invocation, const ListOptions& options) {
   return WithServer(invocation, kRobotHint, [&](const client::Client& client) -> absl::Status {
     v1::ListCalibrationJobsRequest first;
-    first.set_robot(RobotName(robot));
+    first.set_robot(RobotName(options.robot));
+    SetListOptions(options, first);
     v1::ListCalibrationJobsResponse all;
-    TRUEPOSE_RETURN_IF_ERROR(client::ForEachPage(
+    TRUEPOSE_RETURN_IF_ERROR(AsListed(client::ForEachPage(
         first, [&](const auto& request) { return client.ListCalibrationJobs(request); },
         [&](const v1::ListCalibrationJobsResponse& page) {
           all.MergeFrom(page);
           return absl::OkStatus();
-        }));
+        })));
     all.clear_next_page_token();
     return Reply(invocation, all, [&] { return JobsTable(all); });
   });
@@ -110,12 +112,14 @@ void AddJob(const Command& root) {
   job.Footer("Example:\n  truepose job list --robot ur10");
   AddOne(job, "watch", "Wait for a job; its end is the exit code", Watch);
   AddOne(job, "cancel", "End a job", Cancel);
-  const auto robot = std::make_shared<std::string>();
-  job.Add("list", "List the jobs")
-      .Option("--robot", "NAME", robot.get(), "Only of this robot")
-      .Footer("Examples:\n  truepose job list\n  truepose job list --robot ur10 --json")
+  const auto options = std::make_shared<ListOptions>();
+  const Command list = job.Add("list", "List the jobs");
+  AddListOptions(list, {.robot = true, .example = "state = \"FAILED\""}, options.get());
+  list.Footer(
+          "Examples:\n  truepose job list\n"
+          "  truepose job list --robot ur10 --filter 'state = \"FAILED\"' --json")
       .Run(Command::Reach::kRemote,
-           [robot](const Invocation& invocation) { return List(invocation, *robot); });
+           [options](const Invocation& invocation) { return List(invocation, *options); });
 }
 
 }  // namespace truepose::cli

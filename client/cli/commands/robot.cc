@@ -1,9 +1,12 @@
-// truepose robot add|list|show; export is a file of its own
+// truepose robot add|list|show; export, update, delete and undelete are files of their own
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include "absl/strings/str_cat.h"
 #include "client/cli/commands/commands.h"
+#include "client/cli/commands/list_options.h"
+#include "client/cli/commands/resource.h"
 #include "client/cli/inputs.h"
 #include "client/cli/names.h"
 #include "client/cli/outcome.h"
@@ -101,15 +104,17 @@ std::string RobotsTable(const v1::ListRobotsResponse& list) {
   return table.Text();
 }
 
-absl::Status List(const Invocation& invocation) {
+absl::Status List(const Invocation& invocation, const ListOptions& options) {
   return WithServer(invocation, "", [&](const client::Client& client) -> absl::Status {
+    v1::ListRobotsRequest first;
+    SetListOptions(options, first);
     v1::ListRobotsResponse all;
-    TRUEPOSE_RETURN_IF_ERROR(client::ForEachPage(
-        v1::ListRobotsRequest(), [&](const auto& request) { return client.ListRobots(request); },
+    TRUEPOSE_RETURN_IF_ERROR(AsListed(client::ForEachPage(
+        first, [&](const auto& request) { return client.ListRobots(request); },
         [&](const v1::ListRobotsResponse& page) {
           all.MergeFrom(page);
           return absl::OkStatus();
-        }));
+        })));
     all.clear_next_page_token();
     return Reply(invocation, all, [&] { return RobotsTable(all); });
   });
@@ -185,21 +190,32 @@ void AddAdd(const Command& robot) {
            [options](const Invocation& invocation) { return Add(invocation, *options); });
 }
 
+void AddList(const Command& robot) {
+  const auto options = std::make_shared<ListOptions>();
+  const Command list = robot.Add("list", "List the robots");
+  AddListOptions(list, {.deleted = true, .example = "release_policy = \"TWO_PERSON\""},
+                 options.get());
+  list.Footer(
+          "Examples:\n  truepose robot list\n"
+          "  truepose robot list --filter 'display_name = \"*hall 3*\"' --json")
+      .Run(Command::Reach::kRemote,
+           [options](const Invocation& invocation) { return List(invocation, *options); });
+}
+
 }  // namespace
 
 void AddRobot(const Command& root) {
   const Command robot = root.Add("robot", "Robots and their nominal geometry");
   robot.Footer("Example:\n  truepose robot list");
   AddAdd(robot);
-  robot.Add("list", "List the robots")
-      .Footer("Examples:\n  truepose robot list\n  truepose robot list --json")
-      .Run(Command::Reach::kRemote, List);
+  AddList(robot);
   const auto name = std::make_shared<std::string>();
   robot.Add("show", "Show one robot")
       .Required("NAME", "", name.get(), "Such as ur10")
       .Footer("Example:\n  truepose robot show ur10")
       .Run(Command::Reach::kRemote,
            [name](const Invocation& invocation) { return Show(invocation, *name); });
+  AddResourceChanges(robot, RobotKindOfResource());
   AddRobotExport(robot);
 }
 

@@ -1,7 +1,9 @@
-// truepose session list|show
+// truepose session list|show; the others are files of their own
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "client/cli/commands/commands.h"
+#include "client/cli/commands/list_options.h"
+#include "client/cli/commands/resource.h"
 #include "client/cli/names.h"
 #include "client/cli/remote.h"
 #include "client/cli/reply.h"
@@ -34,17 +36,18 @@ std::string SessionsTable(const v1::ListSessionsResponse& list) {
   return table.Text();
 }
 
-absl::Status List(const Invocation& invocation, const std::string& robot) {
+absl::Status List(const Invocation& invocation, const ListOptions& options) {
   return WithServer(invocation, kRobotHint, [&](const client::Client& client) -> absl::Status {
     v1::ListSessionsRequest first;
-    first.set_robot(RobotName(robot));
+    first.set_robot(RobotName(options.robot));
+    SetListOptions(options, first);
     v1::ListSessionsResponse all;
-    TRUEPOSE_RETURN_IF_ERROR(client::ForEachPage(
+    TRUEPOSE_RETURN_IF_ERROR(AsListed(client::ForEachPage(
         first, [&](const auto& request) { return client.ListSessions(request); },
         [&](const v1::ListSessionsResponse& page) {
           all.MergeFrom(page);
           return absl::OkStatus();
-        }));
+        })));
     all.clear_next_page_token();
     return Reply(invocation, all, [&] { return SessionsTable(all); });
   });
@@ -81,18 +84,23 @@ void AddSession(const Command& root) {
   const Command session = root.Add("session", "Measurement sessions");
   session.Footer("Example:\n  truepose session list --robot ur10");
   AddSessionImport(session);
-  const auto robot = std::make_shared<std::string>();
-  session.Add("list", "List the sessions")
-      .Option("--robot", "NAME", robot.get(), "Only of this robot")
-      .Footer("Examples:\n  truepose session list\n  truepose session list --robot ur10 --json")
+  const auto options = std::make_shared<ListOptions>();
+  const Command list = session.Add("list", "List the sessions");
+  AddListOptions(list, {.robot = true, .deleted = true, .example = "state = \"SEALED\""},
+                 options.get());
+  list.Footer(
+          "Examples:\n  truepose session list\n"
+          "  truepose session list --robot ur10 --filter 'purpose = \"CHECK\"' --json")
       .Run(Command::Reach::kRemote,
-           [robot](const Invocation& invocation) { return List(invocation, *robot); });
+           [options](const Invocation& invocation) { return List(invocation, *options); });
   const auto name = std::make_shared<std::string>();
   session.Add("show", "Show one session")
       .Required("SESSION", "", name.get(), "UUID")
       .Footer("Example:\n  truepose session show 5f0c2c1e-8a53-4f0e-9a51-6f1f0f1f7a11")
       .Run(Command::Reach::kRemote,
            [name](const Invocation& invocation) { return Show(invocation, *name); });
+  AddSessionExport(session);
+  AddResourceChanges(session, SessionKindOfResource());
 }
 
 }  // namespace truepose::cli

@@ -18,6 +18,10 @@ std::unique_ptr<grpc::Service> BindCalibrationService(const CallContext& call,
 
 std::unique_ptr<grpc::Service> BindRecalibrationService(const CallContext& call,
                                                         const Executors& executors);
+std::unique_ptr<grpc::Service> BindDownloadService(const CallContext& call,
+                                                   const Executors& executors, rpc::Drain& drain,
+                                                   const WatchSettings& settings);
+
 std::unique_ptr<grpc::Service> BindWatchService(const CallContext& call, const Executors& executors,
                                                 rpc::Drain& drain, const WatchSettings& settings);
 std::unique_ptr<grpc::Service> BindAdminService(const CallContext& call,

@@ -21,6 +21,7 @@ struct Executors {
   rpc::Executor& compute;
 };
 
+// Of watches and downloads.
 struct WatchSettings {
   watch::WakeHub& hub;
   absl::Duration stall =

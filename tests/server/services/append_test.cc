@@ -2,6 +2,7 @@
 #include "server/services/append.h"
 
 #include "absl/strings/str_cat.h"
+#include "server/services/sessions.h"
 #include "tests/server/testing/handler_test.h"
 
 namespace truepose::services {
@@ -91,6 +92,28 @@ TEST_F(AppendTest, AnUnknownSessionSaysWhatToDo) {
   const auto unknown = AppendAndWait(stream_, Spooled(kUnknown, 1, 1));
   EXPECT_THAT(unknown, HasCode(absl::StatusCode::kNotFound));
   EXPECT_THAT(std::string(unknown.status().message()), ::testing::HasSubstr("create it"));
+}
+
+v1::DeleteSessionRequest Deletion(const std::string& session_id) {
+  v1::DeleteSessionRequest request;
+  request.set_name(absl::StrCat("sessions/", session_id));
+  return request;
+}
+
+// Would catch readings that vanish in a session that nobody sees, and an upload that can't end
+// because what is stored is not acknowledged any more.
+TEST_F(AppendTest, ADeletedSessionTakesNothingNewAndAcknowledgesWhatItHas) {
+  ASSERT_THAT(Append(testing::Batch(kSession1, 0, 2)), IsOk());
+  ASSERT_THAT(AppendAndWait(stream_, Spooled(kSession2, 1, 2)), IsOk());
+  ASSERT_THAT(DeleteSession(call(), Deletion(kSession1)), IsOk());
+  ASSERT_THAT(DeleteSession(call(), Deletion(kSession2)), IsOk());
+  EXPECT_THAT(Append(testing::Batch(kSession1, 2, 1)),
+              HasCode(absl::StatusCode::kFailedPrecondition));
+  const auto refused = AppendAndWait(stream_, Spooled(kSession2, 3, 1));
+  EXPECT_THAT(refused, HasCode(absl::StatusCode::kFailedPrecondition));
+  EXPECT_THAT(std::string(refused.status().message()), ::testing::HasSubstr("undelete it"));
+  EXPECT_THAT(Append(testing::Batch(kSession1, 0, 2)), IsOk());
+  EXPECT_THAT(*AppendAndWait(stream_, Spooled(kSession2, 1, 2)), HasFields("durable_sequence: 2"));
 }
 
 // Would catch a message that waits for the store in gRPC's own thread.

@@ -79,20 +79,14 @@ TEST_F(DamagedRequestsTest, CreateSession) {
 }
 
 TEST_F(DamagedRequestsTest, AppendReadings) {
-  Try(testing::Batch(kSession2, 2, 3), [&](const auto& request) {
-    AppendStream stream(call());
-    return testing::AppendAndWait(stream, request);
-  });
+  Try(testing::Batch(kSession2, 2, 3), [&](const auto& request) { return Append(request); });
 }
 
 TEST_F(DamagedRequestsTest, AppendReadingsOfASource) {
   auto batch = testing::Batch(kSession2, 2, 3);
   batch.set_source("00000000-0000-4000-8000-0000000000aa");
   batch.set_first_sequence(1);
-  Try(batch, [&](const auto& request) {
-    AppendStream stream(call());
-    return testing::AppendAndWait(stream, request);
-  });
+  Try(batch, [&](const auto& request) { return Append(request); });
 }
 
 TEST_F(DamagedRequestsTest, CreateCalibrationJob) {

@@ -193,6 +193,28 @@ TEST_F(JobsTest, ListIsNewestFirstAndOfOneRobot) {
               HasFaultsAt(Fields{"page_size"}));
 }
 
+// Would catch a filter that is not asked, one that pages with its items left out, and a page token
+// that is taken under another filter.
+TEST_F(JobsTest, ListTakesAFilter) {
+  AddSealedSession(kSession1, "ur10");
+  for (const char* id : {kJob1, kJob2})
+    ASSERT_THAT(CreateCalibrationJob(call(), Request(id, {kSession1})), IsOk());
+  ASSERT_THAT(CancelCalibrationJob(call(), Named<v1::CancelCalibrationJobRequest>(JobName(kJob1))),
+              IsOk());
+  auto request = Parse<v1::ListCalibrationJobsRequest>(R"pb(filter: "state = \"CANCELLED\"")pb");
+  const auto jobs = ListCalibrationJobs(call(), request);
+  ASSERT_THAT(jobs, IsOk());
+  ASSERT_EQ(jobs->jobs_size(), 1);
+  EXPECT_EQ(jobs->jobs(0).name(), JobName(kJob1));
+  const auto first =
+      ListCalibrationJobs(call(), Parse<v1::ListCalibrationJobsRequest>("page_size: 1"));
+  request.set_page_token(first->next_page_token());
+  EXPECT_THAT(ListCalibrationJobs(call(), request), HasFaultsAt(Fields{"page_token"}));
+  EXPECT_THAT(ListCalibrationJobs(
+                  call(), Parse<v1::ListCalibrationJobsRequest>(R"pb(filter: "colour = 1")pb")),
+              HasFaultsAt(Fields{"filter"}));
+}
+
 // Would catch a cancel that is lost or can't be repeated.
 TEST_F(JobsTest, CancelEndsAPendingJobAndMayBeRepeated) {
   AddSealedSession(kSession1, "ur10");

@@ -41,11 +41,6 @@ v1::GetSessionRequest Get(const std::string& name) {
 class SessionsTest : public HandlerTest {
  protected:
   SessionsTest() { AddRobot("ur10"); }
-
-  absl::StatusOr<v1::AppendReadingsResponse> Append(const v1::AppendReadingsRequest& request) {
-    AppendStream stream(call());
-    return testing::AppendAndWait(stream, request);
-  }
 };
 
 // Would catch a session without state, nominal revision or etag.

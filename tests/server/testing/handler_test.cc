@@ -49,6 +49,12 @@ HandlerTest::HandlerTest(const store::Clock* clock) {
   call_.reset(new services::CallContext{*store_, *engine_});
 }
 
+absl::StatusOr<v1::AppendReadingsResponse> HandlerTest::Append(
+    const v1::AppendReadingsRequest& request) const {
+  services::AppendStream stream(call());
+  return AppendAndWait(stream, request);
+}
+
 void HandlerTest::AddRobot(const std::string& robot_id) {
   ASSERT_THAT(services::CreateRobot(call(), RobotRequest(robot_id)), IsOk());
 }
@@ -58,8 +64,7 @@ void HandlerTest::AddSession(const std::string& session_id, const std::string& r
   ASSERT_THAT(services::CreateSession(
                   call(), SessionRequest(session_id, absl::StrCat("robots/", robot_id))),
               IsOk());
-  services::AppendStream stream(call());
-  ASSERT_THAT(AppendAndWait(stream, Batch(session_id, 0, readings)), IsOk());
+  ASSERT_THAT(Append(Batch(session_id, 0, readings)), IsOk());
 }
 
 void HandlerTest::AddSimulatedSession(const std::string& session_id, const std::string& robot_id,
@@ -74,8 +79,7 @@ void HandlerTest::AddReadingsAndSeal(const std::string& session_id, int poses) {
   v1::AppendReadingsRequest batch;
   batch.set_session(absl::StrCat("sessions/", session_id));
   *batch.mutable_readings() = SimulatedSession(poses, 1).readings();
-  services::AppendStream stream(call());
-  ASSERT_THAT(AppendAndWait(stream, batch), IsOk());
+  ASSERT_THAT(Append(batch), IsOk());
   CloseSession(session_id, poses);
 }
 

@@ -29,6 +29,9 @@ class HandlerTest : public ::testing::Test {
   store::Store& store() { return *store_; }
   jobs::JobEngine& engine() { return *engine_; }
 
+  // One message in a stream of its own.
+  absl::StatusOr<v1::AppendReadingsResponse> Append(const v1::AppendReadingsRequest& request) const;
+
   // Through the handlers; a failure fails the test.
   void AddRobot(const std::string& robot_id);
   void AddSession(const std::string& session_id, const std::string& robot_id, int readings);
