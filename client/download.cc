@@ -60,6 +60,12 @@ absl::Status GoOn(const Client& client, const std::string& name, const DownloadO
   return taken.ok() ? status : taken;
 }
 
+// Of the connection, or ended by the server because nothing was taken for long.
+bool IsBroken(const absl::Status& status) {
+  return absl::IsUnavailable(status) || absl::IsResourceExhausted(status) ||
+         absl::IsCancelled(status);
+}
+
 }  // namespace
 
 absl::StatusOr<std::string> Download(const Client& client, const std::string& name,
@@ -70,7 +76,7 @@ absl::StatusOr<std::string> Download(const Client& client, const std::string& na
     const absl::Status status = GoOn(client, name, options, received, heard);
     if (absl::IsAborted(status) && !received.sha256.empty()) {
       received = {};
-    } else if (absl::IsUnavailable(status) && !received.sha256.empty() &&
+    } else if (IsBroken(status) && !received.sha256.empty() &&
                Clock::now() - heard < options.patience) {
       std::this_thread::sleep_for(kPause);
     } else {

@@ -39,6 +39,9 @@ class Follower {
         return answered_ && Clock::now() - heard_ < options_.patience;
       case absl::StatusCode::kResourceExhausted:
         return true;
+      // The server ends so who takes nothing for long; the caller's own wish is asked for first.
+      case absl::StatusCode::kCancelled:
+        return answered_;
       case absl::StatusCode::kOutOfRange:
         request_.clear_after_revision();
         request_.clear_epoch();

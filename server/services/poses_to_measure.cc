@@ -57,13 +57,13 @@ absl::StatusOr<Measured> LoadMeasured(Snapshot& snapshot, const std::string& cal
   return measured;
 }
 
-// A policy's pose set that was deleted since is passed over.
+// A policy's pose set that was deleted since, or is another robot's, is passed over.
 absl::Status TakePolicies(Snapshot& snapshot, const std::string& robot, Known& known) {
   TRUEPOSE_ASSIGN_OR_RETURN(const auto policies,
                             AllOfRobot<v1::RecalibrationPolicy>(snapshot, robot));
   for (const v1::RecalibrationPolicy& policy : policies) {
     if (policy.poses() > 0) known.poses = policy.poses();
-    if (policy.pose_set().empty()) continue;
+    if (!policy.pose_set().starts_with(robot + "/")) continue;
     if (GetLiveResource<v1::PoseSet>(snapshot, policy.pose_set(), kField).ok())
       known.pose_set = policy.pose_set();
   }

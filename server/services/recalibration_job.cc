@@ -41,6 +41,16 @@ v1::CalibrationOptions OptionsAs(const v1::Calibration& active, const v1::Sessio
   return options;
 }
 
+// What a partial recalibration holds belongs to the nominal that it was found with.
+absl::Status CheckSameNominal(const v1::Calibration& active, const v1::Session& session) {
+  if (active.nominal_revision() == session.nominal_revision()) return absl::OkStatus();
+  return store::Refusal(
+      absl::StatusCode::kFailedPrecondition, "calibrate",
+      absl::StrCat("a part, of ", session.name(), " for ", session.nominal_revision()),
+      absl::StrCat("all, or a session for ", active.nominal_revision(), " of the active ",
+                   active.name()));
+}
+
 absl::StatusOr<v1::CalibrationOptions> OptionsFor(Snapshot& snapshot,
                                                   const v1::RecalibrationRequest& request,
                                                   const std::string& robot_name) {
@@ -54,6 +64,7 @@ absl::StatusOr<v1::CalibrationOptions> OptionsFor(Snapshot& snapshot,
                               store::GetCalibration(snapshot, robot.active_calibration()));
     options = OptionsAs(active, session);
     if (is_partial) {
+      TRUEPOSE_RETURN_IF_ERROR(CheckSameNominal(active, session));
       options.set_prior("calibration");
       *options.mutable_prior_calibration() = convert::PriorOf(active);
     }

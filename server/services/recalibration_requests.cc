@@ -13,6 +13,10 @@
 namespace truepose::services {
 namespace {
 
+// What causes it again is on record by itself; a signal that chatters must not grow a request,
+// which is written and told whole with each step.
+constexpr int kMostSteps = 100;
+
 using store::Transaction;
 
 void AddStep(const Transaction& transaction, v1::RecalibrationState to,
@@ -110,6 +114,7 @@ absl::StatusOr<std::optional<v1::RecalibrationRequest>> RaiseOrNote(Transaction&
                                                                     const PosesToMeasure* poses) {
   TRUEPOSE_ASSIGN_OR_RETURN(auto open, FindOpenRequest(transaction, request.robot));
   if (open.has_value()) {
+    if (open->steps_size() >= kMostSteps) return std::optional<v1::RecalibrationRequest>();
     TRUEPOSE_RETURN_IF_ERROR(AppendStep(transaction, open->state(), request.created_by,
                                         absl::StrCat("also: ", request.reason), *open));
     return std::optional<v1::RecalibrationRequest>();

@@ -72,13 +72,21 @@ absl::Status CheckNominal(const v1::Robot& robot, const v1::Calibration& calibra
       absl::StrCat("a calibration of ", robot.nominal_revision().name(), ", the robot's latest"));
 }
 
-// Negative when no calibration is active.
-absl::StatusOr<double> ChangeAgainstActive(Snapshot& snapshot, const v1::Robot& robot,
-                                           const v1::Calibration& calibration) {
-  if (robot.active_calibration().empty()) return -1.0;
+// Whether the server may make the step by itself. Where the flange's change can't be told, as
+// between calibrations of different nominals, a person decides.
+absl::StatusOr<bool> IsWithinLimits(Snapshot& snapshot, const v1::Robot& robot,
+                                    const v1::Calibration& calibration) {
+  if (calibration.state() != v1::DRAFT || robot.release_policy() != v1::AUTOMATIC_WITHIN_LIMITS ||
+      !CheckNominal(robot, calibration).ok()) {
+    return false;
+  }
+  if (robot.active_calibration().empty()) return WhyNotAutomatic(robot, calibration, -1.0).empty();
   TRUEPOSE_ASSIGN_OR_RETURN(const v1::Calibration active,
                             store::GetCalibration(snapshot, robot.active_calibration()));
-  return convert::FlangeChangeMm(robot.nominal_revision().nominal(), active, calibration);
+  if (!CheckNominal(robot, active).ok()) return false;
+  const absl::StatusOr<double> change =
+      convert::FlangeChangeMm(robot.nominal_revision().nominal(), active, calibration);
+  return change.ok() && WhyNotAutomatic(robot, calibration, *change).empty();
 }
 
 // Makes `name` the one that acts on the robot; the other one becomes superseded in the same commit.
@@ -173,13 +181,8 @@ absl::StatusOr<v1::Calibration> RollBackCalibration(const CallContext& call,
 absl::Status ReleaseWithinLimits(Transaction& transaction, const v1::Calibration& calibration) {
   TRUEPOSE_ASSIGN_OR_RETURN(const v1::Robot robot,
                             store::GetRobot(transaction, RobotOf(calibration)));
-  TRUEPOSE_ASSIGN_OR_RETURN(const double change,
-                            ChangeAgainstActive(transaction, robot, calibration));
-  const bool released = calibration.state() != v1::DRAFT;
-  if (released || !CheckNominal(robot, calibration).ok() ||
-      !WhyNotAutomatic(robot, calibration, change).empty()) {
-    return absl::OkStatus();
-  }
+  TRUEPOSE_ASSIGN_OR_RETURN(const bool releases, IsWithinLimits(transaction, robot, calibration));
+  if (!releases) return absl::OkStatus();
   const std::string reason = "within the robot's limits";
   TRUEPOSE_RETURN_IF_ERROR(
       store::AppendReleaseStep(transaction, calibration.name(), v1::APPROVED, kServer, reason)

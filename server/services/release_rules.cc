@@ -36,6 +36,12 @@ absl::Status CheckIsPerson(const Caller& caller) {
   return Denied(absl::StrCat(caller.principal, ", which is a machine"), "a person's token");
 }
 
+absl::Status CheckIsAdmin(const Caller& caller) {
+  if (caller.is_admin) return absl::OkStatus();
+  return Denied(absl::StrCat(caller.principal, ", who is no admin"),
+                "an admin's token: release policy and its limits decide who releases");
+}
+
 absl::Status CheckMayApprove(const Caller& caller, const v1::Robot& robot, const Origin& origin) {
   const absl::Status person = CheckIsPerson(caller);
   if (!person.ok() || !NeedsTwo(caller, robot)) return person;

@@ -24,6 +24,9 @@ absl::Status CheckMayApprove(const Caller& caller, const v1::Robot& robot, const
 // @returns kPermissionDenied for a machine.
 absl::Status CheckIsPerson(const Caller& caller);
 
+// @returns kPermissionDenied for all but an admin's token.
+absl::Status CheckIsAdmin(const Caller& caller);
+
 // @returns kFailedPrecondition that names both states when `to` may not follow.
 absl::Status CheckReleaseStep(const v1::Calibration& calibration, v1::ReleaseState to);
 

@@ -13,6 +13,7 @@
 #include "server/resource/field_mask.h"
 #include "server/services/closures.h"
 #include "server/services/live.h"
+#include "server/services/release_rules.h"
 #include "server/store/jobs.h"
 #include "server/store/message.h"
 #include "server/store/names.h"
@@ -47,7 +48,18 @@ void CheckSettings(const v1::Robot& robot, FaultList& faults) {
   }
 }
 
-absl::StatusOr<v1::Robot> Update(Transaction& transaction, const v1::UpdateRobotRequest& request) {
+// Who sets how a calibration gets to the robot could else release by that: a machine, or one person
+// where two are asked for.
+absl::Status CheckMaySetRelease(const Caller& caller, const v1::Robot& before,
+                                const v1::Robot& after) {
+  const bool same = before.release_policy() == after.release_policy() &&
+                    before.limits().control_rms_mm() == after.limits().control_rms_mm() &&
+                    before.limits().change_mm() == after.limits().change_mm();
+  return same ? absl::OkStatus() : CheckIsAdmin(caller);
+}
+
+absl::StatusOr<v1::Robot> Update(Transaction& transaction, const Caller& caller,
+                                 const v1::UpdateRobotRequest& request) {
   TRUEPOSE_ASSIGN_OR_RETURN(v1::Robot robot,
                             GetLiveRobot(transaction, request.robot().name(), "robot.name"));
   TRUEPOSE_RETURN_IF_ERROR(resource::CheckEtag(robot.etag(), request.robot().etag()));
@@ -57,6 +69,7 @@ absl::StatusOr<v1::Robot> Update(Transaction& transaction, const v1::UpdateRobot
   FaultList faults;
   CheckSettings(robot, faults);
   TRUEPOSE_RETURN_IF_ERROR(faults.ToStatus());
+  TRUEPOSE_RETURN_IF_ERROR(CheckMaySetRelease(caller, before, robot));
   if (google::protobuf::util::MessageDifferencer::Equals(before, robot)) return robot;
   return store::PutRobot(transaction, robot);
 }
@@ -95,6 +108,7 @@ absl::StatusOr<v1::Robot> CreateRobot(const CallContext& call,
   faults.AddAll(convert::ValidateNominal(request.nominal()), "nominal.");
   CheckSettings(request.robot(), faults);
   TRUEPOSE_RETURN_IF_ERROR(faults.ToStatus());
+  TRUEPOSE_RETURN_IF_ERROR(CheckMaySetRelease(call.caller, v1::Robot(), request.robot()));
   const std::string digest = convert::NominalDigest(request.nominal());
   return WriteOnce(call, request, [&](Transaction& transaction) {
     return store::CreateRobot(transaction, request.robot_id(), request.nominal(), digest,
@@ -104,8 +118,9 @@ absl::StatusOr<v1::Robot> CreateRobot(const CallContext& call,
 
 absl::StatusOr<v1::Robot> UpdateRobot(const CallContext& call,
                                       const v1::UpdateRobotRequest& request) {
-  return WriteOnce(call, request,
-                   [&](Transaction& transaction) { return Update(transaction, request); });
+  return WriteOnce(call, request, [&](Transaction& transaction) {
+    return Update(transaction, call.caller, request);
+  });
 }
 
 absl::StatusOr<v1::Robot> DeleteRobot(const CallContext& call,

@@ -7,16 +7,25 @@
 #include "absl/strings/str_cat.h"
 #include "google/protobuf/descriptor.h"
 #include "gtest/gtest.h"
+#include "truepose/v1/admin_services.pb.h"
+#include "truepose/v1/download_services.pb.h"
 #include "truepose/v1/plant_services.pb.h"
+#include "truepose/v1/recalibration_services.pb.h"
 #include "truepose/v1/services.pb.h"
+#include "truepose/v1/watch_services.pb.h"
 
 namespace truepose::client {
 namespace {
 
 using google::protobuf::MethodDescriptor;
 
+// A secret is shown once: a repeat would make another token.
+bool ShowsASecret(const MethodDescriptor& method) {
+  return method.name() == "Bootstrap" || method.name() == "CreateToken";
+}
+
 bool IsRepeatable(const MethodDescriptor& method) {
-  return !method.client_streaming() && !method.server_streaming();
+  return !method.client_streaming() && !method.server_streaming() && !ShowsASecret(method);
 }
 
 std::string Entry(const MethodDescriptor& method) {
@@ -30,9 +39,10 @@ bool IsNamed(const std::string& config, const MethodDescriptor& method) {
   return absl::StrContains(config, Entry(method)) || absl::StrContains(config, whole);
 }
 
-// What only reads needs no id, and neither does what an id of the client's own names.
+// What only reads, or says how something is to be, needs no id.
 bool IsSafeToRepeat(const MethodDescriptor& method) {
-  for (const char* reads : {"Get", "List", "Evaluate", "Compensate", "Compare"}) {
+  for (const char* reads :
+       {"Get", "List", "Evaluate", "Compensate", "Compare", "Revoke", "ReportAgent"}) {
     if (absl::StartsWith(method.name(), reads)) return true;
   }
   return method.input_type()->FindFieldByName("request_id") != nullptr;
@@ -41,7 +51,11 @@ bool IsSafeToRepeat(const MethodDescriptor& method) {
 // Files of services hold nothing else that would link them.
 const google::protobuf::internal::DescriptorTable* const kTables[] = {
     &descriptor_table_truepose_2fv1_2fservices_2eproto,
-    &descriptor_table_truepose_2fv1_2fplant_5fservices_2eproto};
+    &descriptor_table_truepose_2fv1_2fplant_5fservices_2eproto,
+    &descriptor_table_truepose_2fv1_2frecalibration_5fservices_2eproto,
+    &descriptor_table_truepose_2fv1_2fdownload_5fservices_2eproto,
+    &descriptor_table_truepose_2fv1_2fwatch_5fservices_2eproto,
+    &descriptor_table_truepose_2fv1_2fadmin_5fservices_2eproto};
 
 std::vector<const google::protobuf::FileDescriptor*> Files() {
   std::vector<const google::protobuf::FileDescriptor*> files;

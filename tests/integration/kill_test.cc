@@ -315,8 +315,11 @@ TEST_F(KillUnderLoadTest, EachEffectIsThereOnce) {
             << told.uploaded[0] + told.uploaded[1] << " readings, " << 4 * told.instruments
             << " changes, " << told.activations << " activations, " << told.jobs.size()
             << " jobs\n";
-  // The limit is 2 s; other programs share this machine's cores.
-  EXPECT_LT(worst, is_long ? absl::Seconds(6) : absl::Seconds(30));
+  // Other programs may share the cores at one kill, not at most of them.
+  std::nth_element(ready_after_.begin(), ready_after_.begin() + ready_after_.size() / 2,
+                   ready_after_.end());
+  EXPECT_LT(ready_after_[ready_after_.size() / 2], absl::Seconds(2));
+  EXPECT_LT(worst, absl::Seconds(10));
 }
 
 }  // namespace

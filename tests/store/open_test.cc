@@ -104,17 +104,17 @@ TEST_F(Open, AFolderInPlaceOfAFile) {
 TEST_F(Open, ADatabaseOfANewerVersion) {
   ASSERT_TRUE(Store::Open({.path = path_}).ok());
   Sqlite(path_,
-         "INSERT INTO migrations VALUES (9, 'future', 'x', 9, '2030-01-01T00:00:00Z'); PRAGMA "
-         "user_version = 9");
-  ExpectRefused("version 9");
+         "INSERT INTO migrations VALUES (1000, 'future', 'x', 1000, '2030-01-01T00:00:00Z'); PRAGMA "
+         "user_version = 1000");
+  ExpectRefused("version 1000");
 }
 
 // Catches a refusal of what says that it is compatible.
 TEST_F(Open, ANewerDatabaseThatIsCompatible) {
   ASSERT_TRUE(Store::Open({.path = path_}).ok());
   Sqlite(path_,
-         "INSERT INTO migrations VALUES (9, 'future', 'x', 1, '2030-01-01T00:00:00Z'); PRAGMA "
-         "user_version = 9");
+         "INSERT INTO migrations VALUES (1000, 'future', 'x', 1, '2030-01-01T00:00:00Z'); PRAGMA "
+         "user_version = 1000");
   EXPECT_TRUE(Store::Open({.path = path_}).ok());
 }
 

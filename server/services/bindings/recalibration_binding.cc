@@ -14,7 +14,8 @@ class RecalibrationBinding final : public v1::RecalibrationService::CallbackServ
       : call_(call), handlers_(executors.handlers), compute_(executors.compute) {}
 
   TRUEPOSE_BIND_RESOURCE(RecalibrationPolicy, RecalibrationPolicies)
-  TRUEPOSE_BIND(CreateRobotEvent, CreateRobotEventRequest, RobotEvent, handlers_)
+  // May raise a request, which chooses poses.
+  TRUEPOSE_BIND(CreateRobotEvent, CreateRobotEventRequest, RobotEvent, compute_)
   TRUEPOSE_BIND_STANDARD(GetRobotEvent, RobotEvent, GetStandard)
   TRUEPOSE_BIND_STANDARD(ListRobotEvents, ListRobotEventsResponse, ListStandard)
   TRUEPOSE_BIND_STANDARD(GetRecalibrationRequest, RecalibrationRequest, GetStandard)

@@ -1,8 +1,10 @@
 #include "server/services/release.h"
 
+#include "core/base/status_macros.h"
 #include "server/services/calibrations.h"
 #include "server/services/release_rules.h"
 #include "server/services/robots.h"
+#include "server/store/robots.h"
 #include "tests/server/testing/handler_test.h"
 
 namespace truepose::services {
@@ -72,6 +74,57 @@ TEST_F(ReleaseTest, AResultIsADraft) {
   EXPECT_EQ(Active(), "");
   EXPECT_THAT(ActivateCalibration(As("anna"), Named<v1::ActivateCalibrationRequest>(kFirst)),
               HasCode(absl::StatusCode::kFailedPrecondition));
+}
+
+// Would catch a nominal that changes under the limits: the change of the flange between
+// calibrations of two nominals can't be told, so a person decides, and the job that asks does not
+// fail by it.
+TEST_F(ReleaseTest, TheServerReleasesOnlyOverTheSameNominal) {
+  Release(kFirst);
+  v1::UpdateRobotRequest update;
+  update.mutable_robot()->set_name("robots/ur10");
+  update.mutable_robot()->set_release_policy(v1::AUTOMATIC_WITHIN_LIMITS);
+  update.mutable_robot()->mutable_limits()->set_control_rms_mm(1'000);
+  ASSERT_THAT(UpdateRobot(call(), update), IsOk());
+  v1::Calibration good = *GetCalibration(call(), [] {
+    v1::GetCalibrationRequest request;
+    request.set_name(kSecond);
+    return request;
+  }());
+  good.mutable_report()->set_verdict("apply");
+  good.mutable_report()->mutable_sets()->mutable_control()->set_poses(20);
+  const auto release = [&](bool keep) {
+    return store().Write([&](store::Transaction& transaction) -> absl::StatusOr<std::string> {
+      TRUEPOSE_RETURN_IF_ERROR(ReleaseWithinLimits(transaction, good));
+      TRUEPOSE_ASSIGN_OR_RETURN(const auto robot, store::GetRobot(transaction, "robots/ur10"));
+      if (!keep) return absl::AbortedError(robot.active_calibration());
+      return robot.active_calibration();
+    });
+  };
+  EXPECT_EQ(release(false).status().message(), kSecond) << "over the same nominal it does";
+  v1::CreateNominalRevisionRequest revision;
+  revision.set_parent("robots/ur10");
+  *revision.mutable_nominal() = testing::SixAxes("2");
+  ASSERT_THAT(CreateNominalRevision(call(), revision), IsOk());
+  good.set_nominal_revision("robots/ur10/nominals/2");
+  const auto active = release(true);
+  ASSERT_THAT(active, IsOk());
+  EXPECT_EQ(*active, kFirst);
+}
+
+// Would catch a machine that releases, or one person where two are asked for, by way of the policy.
+TEST_F(ReleaseTest, OnlyAnAdminSetsHowItIsReleased) {
+  v1::UpdateRobotRequest request;
+  request.mutable_robot()->set_name("robots/ur10");
+  request.mutable_robot()->set_display_name("cell 7");
+  EXPECT_THAT(UpdateRobot(As("anna"), request), IsOk());
+  request.mutable_robot()->set_release_policy(v1::ONE_PERSON);
+  EXPECT_THAT(UpdateRobot(As("anna"), request), HasCode(absl::StatusCode::kPermissionDenied));
+  request.mutable_robot()->clear_release_policy();
+  request.mutable_robot()->mutable_limits()->set_change_mm(100);
+  EXPECT_THAT(UpdateRobot(As("agent", true), request),
+              HasCode(absl::StatusCode::kPermissionDenied));
+  EXPECT_THAT(UpdateRobot(call(), request), IsOk()) << "who is an admin here";
 }
 
 // Would catch two active calibrations of a robot, or a step that is forgotten.

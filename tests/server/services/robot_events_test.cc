@@ -56,6 +56,19 @@ TEST_F(RobotEventsTest, AnEventOfThePolicyRaisesOneRequest) {
   EXPECT_EQ(All<v1::RecalibrationRequest>().size(), 1u);
 }
 
+// Would catch an input that chatters and makes a request, which is told whole, grow without end.
+TEST_F(RobotEventsTest, ARequestNotesOnlySoMany) {
+  SetPolicy("event_kinds: COLLISION");
+  for (int i = 0; i < 120; ++i) {
+    v1::CreateRobotEventRequest request;
+    request.set_parent(kRobot);
+    request.set_robot_event_id(absl::StrFormat("00000000-0000-4000-8000-0000000000%02x", i + 100));
+    *request.mutable_robot_event() = testing::Parse<v1::RobotEvent>("kind: COLLISION");
+    ASSERT_THAT(CreateRobotEvent(As("agent", true), request), IsOk());
+  }
+  EXPECT_EQ(All<v1::RecalibrationRequest>().at(0).steps_size(), 100);
+}
+
 // Would catch a second request, or an event that the open one keeps silent about.
 TEST_F(RobotEventsTest, AnEventIsNotedInTheOpenRequest) {
   SetPolicy("event_kinds: COLLISION");
