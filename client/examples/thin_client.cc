@@ -29,14 +29,16 @@ T Demand(absl::StatusOr<T> result) {
 struct FileSpool : client::ReadingSpool {
   FileSpool(const std::string& path, size_t joints, std::string in) : session(std::move(in)) {
     std::ifstream file(path);
-    for (std::string line; std::getline(file, line);) {
+    if (!file) Demand(absl::StatusOr<int>(absl::NotFoundError(path + " can't be read")));
+    for (std::string line; std::getline(file, line) && !file.eof();) {  // whole lines only
       std::istringstream numbers(line);
       const std::vector<double> values(std::istream_iterator<double>(numbers), {});
-      if (values.size() != joints + 7 || file.eof()) break;  // still being written: next time
+      if (values.size() != joints + 7)
+        Demand(absl::StatusOr<int>(absl::InvalidArgumentError(path + " has a bad line: " + line)));
       v1::Reading reading;
       const auto pose = values.begin() + joints;
       reading.mutable_joints_commanded()->Assign(values.begin(), pose);
-      v1::Vector3& p = *reading.mutable_position_m();
+      auto& p = *reading.mutable_position_m();
       p.set_x(pose[0]), p.set_y(pose[1]), p.set_z(pose[2]);
       v1::Quaternion& q = *reading.mutable_orientation();
       q.set_x(pose[3]), q.set_y(pose[4]), q.set_z(pose[5]), q.set_w(pose[6]);
@@ -72,8 +74,7 @@ int main(int argc, char** argv) {
     std::ofstream(readings + ".ids") << source << "\n" << session << "\n" << job << std::endl;
   }
   v1::CreateSessionRequest create_session;
-  create_session.set_session_id(session);
-  create_session.mutable_session()->set_robot(robot);
+  create_session.set_session_id(session), create_session.mutable_session()->set_robot(robot);
   const std::string name = Demand(server.CreateSession(create_session)).name();
   FileSpool spool(readings, target.joints_size(), name);
   v1::SealSessionRequest seal;
@@ -83,8 +84,7 @@ int main(int argc, char** argv) {
 
   v1::CreateCalibrationJobRequest create_job;
   create_job.set_job_id(job), create_job.set_robot(robot);
-  create_job.add_sessions(name);
-  create_job.mutable_options()->set_split("even-odd");
+  create_job.add_sessions(name), create_job.mutable_options()->set_split("even-odd");
   job = Demand(server.CreateCalibrationJob(create_job)).name();
   std::cout << "calibration: " << Demand(client::WaitForJob(server, job)).calibration() << "\n";
 

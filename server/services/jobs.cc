@@ -70,6 +70,10 @@ absl::Status CheckSessions(const std::vector<v1::Session>& sessions, const std::
       faults.Add(field, absl::StrCat(session.name(), " of ", session.nominal_revision()),
                  absl::StrCat("a session of ", revision, " as sessions[0]"));
     }
+    if (session.has_delete_time()) {
+      faults.Add(field, absl::StrCat(session.name(), ", which is deleted"),
+                 "a session that is not; UndeleteSession brings it back");
+    }
     if (session.state() != v1::SEALED) {
       faults.Add(field, absl::StrCat(session.name(), " ", v1::SessionState_Name(session.state())),
                  "SEALED");

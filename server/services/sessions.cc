@@ -11,6 +11,7 @@
 #include "server/resource/etag.h"
 #include "server/resource/field_mask.h"
 #include "server/resource/registry.h"
+#include "server/resource/resource_name.h"
 #include "server/resource/standard_methods.h"
 #include "server/services/closures.h"
 #include "server/services/live.h"
@@ -42,6 +43,20 @@ const std::vector<std::string>& OutputOnly() {
   return fields;
 }
 
+// The form of what it refers to; a session that was begun offline may name what is registered
+// later.
+absl::Status CheckReferences(const v1::Session& session) {
+  FaultList faults;
+  const auto check = [&](const auto* descriptor, const std::string& name, const char* field) {
+    if (!name.empty())
+      faults.AddAll(resource::ParseName(*resource::FindType(descriptor), name, field).status());
+  };
+  check(v1::Instrument::descriptor(), session.instrument(), "session.instrument");
+  check(v1::RegisteredFixture::descriptor(), session.fixture(), "session.fixture");
+  check(v1::Placement::descriptor(), session.placement(), "session.placement");
+  return faults.ToStatus();
+}
+
 absl::StatusOr<v1::Session> Update(Transaction& transaction,
                                    const v1::UpdateSessionRequest& request) {
   TRUEPOSE_RETURN_IF_ERROR(
@@ -56,6 +71,7 @@ absl::StatusOr<v1::Session> Update(Transaction& transaction,
   }
   TRUEPOSE_RETURN_IF_ERROR(
       resource::ApplyUpdate(request.session(), request.update_mask(), OutputOnly(), session));
+  TRUEPOSE_RETURN_IF_ERROR(CheckReferences(session));
   return store::PutSession(transaction, session);
 }
 
@@ -97,6 +113,7 @@ absl::StatusOr<v1::Session> CreateSession(const CallContext& call,
   if (const std::string& revision = request.session().nominal_revision(); !revision.empty()) {
     faults.AddAll(store::ParseNominalName(revision, "session.nominal_revision").status());
   }
+  faults.AddAll(CheckReferences(request.session()));
   TRUEPOSE_RETURN_IF_ERROR(faults.ToStatus());
   v1::Session session = request.session();
   session.set_created_by(call.caller.principal);

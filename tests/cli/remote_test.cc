@@ -270,5 +270,20 @@ TEST_F(RemoteTest, AFailedJobIsTheSameErrorAsLocal) {
   EXPECT_EQ(At(OneObject(remote.out), "error.message"), At(OneObject(local.out), "error.message"));
 }
 
+// Would catch an instrument that is given and whose expired certificate nobody hears of.
+TEST_F(RemoteTest, ASessionSaysWhatMeasured) {
+  AddRobot();
+  Demand({"instrument", "create", "lt-1", "--set", "serial=7",
+          "certificate_expire_time=2025-03-01T00:00:00Z"});
+  Demand({"session", "import", session_, "--robot", "ur10", "--session-id", kUuid, "--instrument",
+          "lt-1", "--operator", "Ada", "--temperature", "21.5"});
+  const Ran shown = Demand({"session", "show", kUuid, "--json"});
+  for (const char* part : {"instruments/lt-1", "Ada", "21.5"})
+    EXPECT_THAT(shown.out, HasSubstr(part));
+  const Ran report =
+      Demand({"calibrate", "--robot", "ur10", "--session", kUuid, "--split", "even-odd"});
+  EXPECT_THAT(report.out + report.err, HasSubstr("had expired on 2025-03-01"));
+}
+
 }  // namespace
 }  // namespace truepose::cli

@@ -103,5 +103,13 @@ TEST_F(ThinClientTest, StartedAgainItHasNoSecondEffect) {
   EXPECT_EQ(NewClient().ListCalibrationJobs({})->jobs_size(), 1);
 }
 
+// Would catch readings that are left out in silence because a line before them can't be read.
+TEST_F(ThinClientTest, SaysWhichLineIsBad) {
+  std::ofstream(readings_) << "0.1 0.2 oops\n";
+  const Ran ran = RunClient();
+  EXPECT_EQ(ran.code, 1);
+  EXPECT_THAT(ran.out, ::testing::HasSubstr("0.1 0.2 oops"));
+}
+
 }  // namespace
 }  // namespace truepose

@@ -63,8 +63,8 @@ absl::Status WithReleaseHints(const absl::Status& status) {
   const absl::Status denied = WithHint(
       RenameFields(status, {{"etag", "--etag"}, {"reason", "--reason"}, {"from", "--from"}}),
       absl::StatusCode::kPermissionDenied,
-      "Somebody else has to do it, or `truepose robot update NAME --set "
-      "release_policy=ONE_PERSON` asks for one person only.");
+      "A second person has to do it, with a person's token. An admin may set the robot's "
+      "release_policy.");
   return WithHint(denied, absl::StatusCode::kFailedPrecondition,
                   "`truepose calibration history NAME` shows how far it is.");
 }

@@ -1,8 +1,11 @@
 // truepose session import: a file becomes a sealed session.
+#include <cmath>
 #include <memory>
 #include <utility>
 #include <vector>
 
+#include "absl/strings/match.h"
+#include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "client/append_readings.h"
 #include "client/cli/commands/commands.h"
@@ -25,8 +28,27 @@ struct Options {
   std::string euler;
   std::string display_name;
   std::string session_id;
+  std::string instrument, placement, operator_name, temperature;
   bool strict_limits = false;
 };
+
+// "lt-1" or "instruments/lt-1": the whole name.
+std::string Whole(const std::string& collection, const std::string& name) {
+  return name.empty() || absl::StrContains(name, '/') ? name : absl::StrCat(collection, "/", name);
+}
+
+// What was said of the measurement, and no file has.
+absl::Status Describe(const Options& options, v1::Session& session) {
+  session.set_instrument(Whole("instruments", options.instrument));
+  session.set_placement(Whole(absl::StrCat(session.robot(), "/placements"), options.placement));
+  session.set_operator_(options.operator_name);
+  double temperature = 0;
+  if (options.temperature.empty()) return absl::OkStatus();
+  if (!absl::SimpleAtod(options.temperature, &temperature) || std::abs(temperature) > 100)
+    return OptionFault("--temperature", options.temperature, "the air at the robot, in deg C");
+  session.set_temperature_c(temperature);
+  return absl::OkStatus();
+}
 
 // The file is read completely, and every fault of it found, before the server hears of a session.
 absl::StatusOr<v1::SessionInput> Load(const Invocation& invocation, const Options& options,
@@ -43,6 +65,7 @@ absl::StatusOr<v1::SessionInput> Load(const Invocation& invocation, const Option
   v1::Session& session = *sessions[0].mutable_session();
   session.set_robot(robot.name());
   session.set_display_name(options.display_name.empty() ? session.source() : options.display_name);
+  TRUEPOSE_RETURN_IF_ERROR(Describe(options, session));
   return std::move(sessions[0]);
 }
 
@@ -127,13 +150,20 @@ void AddSessionImport(const Command& session) {
               "Read rx_deg,ry_deg,rz_deg by this convention, such as xyz-intrinsic")
       .Option("--name", "TEXT", &options->display_name,
               "What people call it; default: the file's name")
+      .Option("--instrument", "NAME", &options->instrument,
+              "What measured; calibrations say when its certificate had expired")
+      .Option("--placement", "NAME", &options->placement,
+              "Where it stands, when it stood there before (placement list)")
+      .Option("--operator", "TEXT", &options->operator_name, "Who measured")
+      .Option("--temperature", "C", &options->temperature, "Air at the robot")
       .Option("--session-id", "UUID", &options->session_id,
               "Go on with an import that was interrupted")
       .Option("--strict-limits", "", &options->strict_limits,
               "A joint beyond its limit is an error")
       .Footer(
           "Examples:\n  truepose session import series_C.csv --robot ur10\n"
-          "  truepose session import arm.csv --robot arm6 --euler xyz-intrinsic --strict-limits")
+          "  truepose session import arm.csv --robot arm6 --euler xyz-intrinsic --strict-limits\n"
+          "  truepose session import monday.csv --robot ur10 --instrument lt-1 --temperature 21.5")
       .Run(Command::Reach::kRemote,
            [options](const Invocation& invocation) { return Import(invocation, *options); });
 }

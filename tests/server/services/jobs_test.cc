@@ -3,6 +3,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/synchronization/notification.h"
 #include "server/services/robots.h"
+#include "server/services/sessions.h"
 #include "tests/server/testing/handler_test.h"
 
 namespace truepose::services {
@@ -95,6 +96,16 @@ TEST_F(JobsTest, CreateNeedsItsRobotAndSessions) {
   auto request = Request(kJob1, {kSession1});
   request.set_robot("robots/none");
   EXPECT_THAT(CreateCalibrationJob(call(), request), HasCode(absl::StatusCode::kNotFound));
+}
+
+// Would catch a calibration of what somebody has thrown away.
+TEST_F(JobsTest, CreateRefusesADeletedSession) {
+  AddSealedSession(kSession1, "ur10");
+  v1::DeleteSessionRequest gone;
+  gone.set_name(absl::StrCat("sessions/", kSession1));
+  ASSERT_THAT(DeleteSession(call(), gone), IsOk());
+  EXPECT_THAT(CreateCalibrationJob(call(), Request(kJob1, {kSession1})),
+              HasCode(absl::StatusCode::kFailedPrecondition));
 }
 
 // Would catch a calibration of readings that may still change, of another robot, or under two

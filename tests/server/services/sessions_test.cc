@@ -73,9 +73,11 @@ TEST_F(SessionsTest, RepeatedCreateIsHarmlessAndAnotherIsRefused) {
 
 TEST_F(SessionsTest, CreateNamesEveryFault) {
   auto request = SessionRequest("no-uuid", "ur10");
+  request.mutable_session()->set_instrument("lt-1");
   request.mutable_session()->set_nominal_revision("1");
   EXPECT_THAT(CreateSession(call(), request),
-              HasFaultsAt(Fields{"session_id", "session.robot", "session.nominal_revision"}));
+              HasFaultsAt(Fields{"session_id", "session.robot", "session.nominal_revision",
+                                 "session.instrument"}));
 }
 
 TEST_F(SessionsTest, CreateNeedsItsRobot) {
