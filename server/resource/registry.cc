@@ -1,6 +1,7 @@
 #include "server/resource/registry.h"
 
 #include "server/resource/checks.h"
+#include "server/resource/stored_checks.h"
 #include "truepose/v1/plant.pb.h"
 #include "truepose/v1/recalibration.pb.h"
 
@@ -55,12 +56,14 @@ std::vector<ResourceType> RecalibrationTypes() {
        .of_robot = true,
        .uuid_ids = true,
        .output_only = {"created_by"},
-       .check = CheckRobotEvent},
+       .check = CheckRobotEvent,
+       .check_within = CheckRobotEventWithin},
       {.kind = v1::KIND_RECALIBRATION_POLICY,
        .prototype = Prototype<v1::RecalibrationPolicy>(),
        .collection = "recalibrationPolicies",
        .of_robot = true,
-       .check = CheckRecalibrationPolicy},
+       .check = CheckRecalibrationPolicy,
+       .check_within = CheckPolicyWithin},
       {.kind = v1::KIND_RECALIBRATION_REQUEST,
        .prototype = Prototype<v1::RecalibrationRequest>(),
        .collection = "recalibrationRequests",
