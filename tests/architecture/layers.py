@@ -31,7 +31,7 @@ def _core_rows():
 ALLOWED = {
     **_core_rows(),
     "core/compensation": (*_core_rows()["core/compensation"], "compensation"),
-    "compensation": ("core/geometry",),  # of which the header-only part alone: it links Eigen only
+    "compensation": ("core/geometry", "io"),  # of which the header-only part alone: it links Eigen only; maps its file
     "formats": ("core/base", "proto", "yaml", "json", "urdf", "io"),
     "convert": ("core", "compensation", "proto", "openssl", "io"),
     "server/store": ("core/base", "proto", "sqlite", "openssl", "io"),
