@@ -31,6 +31,7 @@ def _core_rows():
 ALLOWED = {
     **_core_rows(),
     "formats": ("core/base", "proto", "yaml", "json", "urdf", "io"),
+    "programs": ("core/base", "formats"),
     "convert": ("core", "proto", "openssl", "io"),
     "server/store": ("core/base", "proto", "sqlite", "openssl", "io"),
     "server/jobs": ("core/base", "convert", "server/store", "proto", "io", "spdlog"),
@@ -42,11 +43,11 @@ ALLOWED = {
         "core/base", "convert", "server/store", "server/auth", "server/jobs", "server/resource", "server/watch",
         "server/rpc", "proto", "grpc", "io", "spdlog"),
     "server": ("core", "convert", "formats", "proto", "grpc", "io", "spdlog", "cli11", "sqlite", "openssl"),
-    "client/cli": ("core", "formats", "convert", "client", "proto", "grpc", "io", "cli11", "json", "openssl"),
+    "client/cli": ("core", "formats", "programs", "convert", "client", "proto", "grpc", "io", "cli11", "json", "openssl"),
     "client": ("core/base", "proto", "grpc", "io", "openssl"),
-    "tests": ("core", "formats", "convert", "server", "client", "bench", "proto", "grpc", "sqlite", "yaml",
+    "tests": ("core", "formats", "programs", "convert", "server", "client", "bench", "proto", "grpc", "sqlite", "yaml",
               "json", "urdf", "openssl", "spdlog", "cli11", "io"),
-    "bench": ("core", "formats", "convert", "server", "client", "tests", "proto", "grpc", "json", "io", "sqlite"),
+    "bench": ("core", "formats", "programs", "convert", "server", "client", "tests", "proto", "grpc", "json", "io", "sqlite"),
 }
 
 # Folders whose row does not reach into these folders below them, which have rows of their own.
