@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "absl/strings/ascii.h"
+#include "absl/strings/str_format.h"
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
 #include "formats/strings.h"
@@ -18,6 +20,8 @@ namespace {
 // As many as a FaultList shows.
 constexpr size_t kMostFaults = 200;
 
+constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+
 absl::Status CheckText(std::string_view text, std::string_view file_name) {
   if (text.find('\0') == std::string_view::npos) return absl::OkStatus();
   return FaultStatus(std::string(file_name), "a NUL byte, as in UTF-16 and in binary files",
@@ -26,10 +30,12 @@ absl::Status CheckText(std::string_view text, std::string_view file_name) {
 
 class Corrector {
  public:
-  Corrector(std::string_view text, Dialect dialect, const std::vector<bool>& prismatic)
+  Corrector(std::string_view text, Dialect dialect, const std::vector<bool>& prismatic,
+            const CorrectOptions& options)
       : text_(text),
         dialect_(dialect),
         prismatic_(prismatic),
+        options_(options),
         program_(ReadProgram(text, dialect, Joints())) {}
 
   // Fills changes and uncorrected.
@@ -109,6 +115,8 @@ class Corrector {
     const JointTarget& target = program_.targets[index];
     if (!answer.fault.empty()) return Leave(target, answer.fault);
     if (!IsValid(answer.joints)) return Leave(target, "the correction gave no valid joints");
+    if (std::string fault = TooLarge(target, answer.joints); !fault.empty())
+      return Leave(target, fault);
     Change change{target.line, target.what, {}, {}};
     for (size_t j = 0; j < prismatic_.size(); ++j) {
       change.before.push_back(target.joints[j].value);
@@ -121,6 +129,21 @@ class Corrector {
   bool IsValid(const std::vector<double>& joints) const {
     return joints.size() == prismatic_.size() &&
            std::all_of(joints.begin(), joints.end(), [](double q) { return std::isfinite(q); });
+  }
+
+  // "" or which joint changes too much.
+  std::string TooLarge(const JointTarget& target, const std::vector<double>& corrected) const {
+    const std::vector<double> before = SiOf(target);
+    for (size_t j = 0; j < prismatic_.size(); ++j) {
+      const double change = std::abs(corrected[j] - before[j]);
+      if (change <= (prismatic_[j] ? options_.largest_change_m : options_.largest_change_rad))
+        continue;
+      return formats::StrCat("joint ", j + 1, " would change by ",
+                             absl::StrFormat("%.4g", change * (prismatic_[j] ? 1e3 : kDegPerRad)),
+                             prismatic_[j] ? " mm" : " deg",
+                             ": the target is near a singularity, or of another robot");
+    }
+    return "";
   }
 
   // The numbers of all corrected targets in the order of the text, each with its new value.
@@ -156,6 +179,7 @@ class Corrector {
   const std::string_view text_;
   const Dialect dialect_;
   const std::vector<bool>& prismatic_;
+  const CorrectOptions& options_;
   Program program_;
   std::vector<size_t> asked_;
   std::vector<Expected> expected_;
@@ -170,7 +194,7 @@ absl::StatusOr<CorrectedProgram> CorrectProgram(std::string_view text, std::stri
                                                 const Correction& correction,
                                                 const CorrectOptions& options) {
   TRUEPOSE_RETURN_IF_ERROR(CheckText(text, file_name));
-  Corrector corrector(text, dialect, prismatic);
+  Corrector corrector(text, dialect, prismatic, options);
   TRUEPOSE_RETURN_IF_ERROR(corrector.Ask(correction));
   if (!options.keep_uncorrected) TRUEPOSE_RETURN_IF_ERROR(corrector.FaultsOfUncorrected(file_name));
   return std::move(corrector).Finish();

@@ -29,6 +29,10 @@ using Correction = std::function<absl::StatusOr<std::vector<CorrectedJoints>>(
 struct CorrectOptions {
   // Targets that can't be corrected stay and are listed; without it they refuse the whole program.
   bool keep_uncorrected = false;
+  // A joint that would change by more can't be corrected: near a singularity a correction of a
+  // millimetre turns a wrist by tens of degrees, and the calibration of another robot does worse.
+  double largest_change_rad = 0.0872665;  // 5 degrees
+  double largest_change_m = 0.02;         // of joints that slide
 };
 
 // One corrected target, numbers in the unit in which the program has them.

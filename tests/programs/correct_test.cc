@@ -122,6 +122,24 @@ TEST(CorrectTest, AnswersThatAreNoneAreRefused) {
   EXPECT_EQ(Correct(kTwo, fails).status(), absl::UnavailableError("gone"));
 }
 
+// Would catch a wrist that is turned by tens of degrees for the sake of a millimetre.
+TEST(CorrectTest, LargeChangesAreRefused) {
+  const auto by = [](double change) {
+    return [change](const std::vector<std::vector<double>>& targets) {
+      std::vector<CorrectedJoints> answers = Unchanged(targets);
+      for (CorrectedJoints& answer : answers) answer.joints[4] += change;
+      return answers;
+    };
+  };
+  EXPECT_TRUE(Correct(kTwo, by(0.087)).ok());
+  EXPECT_THAT(Correct(kTwo, by(-0.0873)).status().message(),
+              HasSubstr("joint 5 would change by 5.002 deg: the target is near a singularity"));
+  const std::vector<bool> fifth_slides = {false, false, false, false, true, false};
+  EXPECT_TRUE(Correct(kTwo, by(0.0199), false, fifth_slides).ok());
+  EXPECT_THAT(Correct(kTwo, by(0.0201), false, fifth_slides).status().message(),
+              HasSubstr("joint 5 would change by 20.1 mm"));
+}
+
 // A d2r() can't be millimetres.
 TEST(CorrectTest, DegreesOfASlideAreAFault) {
   const auto corrected = Correct("movej([d2r(1),0,0,0,0,0])", Unchanged, false,

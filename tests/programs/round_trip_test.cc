@@ -110,7 +110,7 @@ TEST_P(RoundTripTest, TheNewProgramSaysTheCorrectedJoints) {
                                             }
                                             return result;
                                           },
-                                          {});
+                                          {.largest_change_rad = 1e9});
     RC_ASSERT(corrected.ok());
     RC_ASSERT(asked.size() == targets.size());
     const Program again = ReadProgram(corrected->text, dialect, 6);
