@@ -45,6 +45,7 @@ ALLOWED = {
     "server": ("core", "convert", "formats", "proto", "grpc", "io", "spdlog", "cli11", "sqlite", "openssl"),
     "client/cli": ("core", "formats", "programs", "convert", "client", "proto", "grpc", "io", "cli11", "json", "openssl"),
     "client/agent": ("core/base", "client", "proto", "io", "cli11", "json", "spdlog", "toml"),
+    "client/agent/sources": ("core/base", "formats", "client/agent", "proto", "io"),
     "client": ("core/base", "proto", "grpc", "io", "openssl"),
     "tests": ("core", "formats", "programs", "convert", "server", "client", "bench", "proto", "grpc", "sqlite", "yaml",
               "json", "urdf", "openssl", "spdlog", "cli11", "io"),
