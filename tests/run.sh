@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# tests/run.sh [--long]: installs what is missing, builds, runs every test, then core, formats and store again under
+# tests/run.sh [--long]: installs what is missing, builds, runs every test, then core, formats, programs and store again under
 # the address and undefined-behaviour sanitizers. The last line is "N passed, N failed"; the exit code is 0 only when
 # tests ran and none failed.
 #
@@ -68,7 +68,7 @@ dev_stage() {
 }
 
 sanitizer_stage() {
-  local folders=(tests/core tests/laws tests/formats tests/store)
+  local folders=(tests/core tests/laws tests/formats tests/programs tests/store)
   export ASAN_OPTIONS="detect_leaks=1:strict_string_checks=1" UBSAN_OPTIONS="print_stacktrace=1:halt_on_error=1"
   step "build asan-ubsan" build asan-ubsan "${folders[@]/%//all}" || return
   for folder in "${folders[@]}"; do

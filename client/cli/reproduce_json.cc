@@ -1,50 +1,17 @@
 // The answers of `truepose reproduce` as JSON objects.
+#include "client/cli/json_value.h"
 #include "client/cli/reproduce.h"
 #include "core/reproduce/printed.h"
 
 namespace truepose::cli {
 namespace {
 
-using google::protobuf::ListValue;
 using google::protobuf::Struct;
 using google::protobuf::Value;
 
 constexpr double kMillimetres = 1e3;
 
-Value Number(double number) {
-  Value value;
-  value.set_number_value(number);
-  return value;
-}
-
-Value Text(const std::string& text) {
-  Value value;
-  value.set_string_value(text);
-  return value;
-}
-
-Value Object(Struct object) {
-  Value value;
-  *value.mutable_struct_value() = std::move(object);
-  return value;
-}
-
-// A list of what `convert` makes of each item.
-template <typename Items, typename Convert>
-Value List(const Items& items, Convert convert) {
-  Value value;
-  ListValue* list = value.mutable_list_value();
-  for (const auto& item : items) *list->add_values() = convert(item);
-  return value;
-}
-
 Value Names(const std::vector<std::string>& names) { return List(names, Text); }
-
-Struct StructOf(std::vector<std::pair<std::string, Value>> fields) {
-  Struct object;
-  for (auto& [name, value] : fields) (*object.mutable_fields())[name] = std::move(value);
-  return object;
-}
 
 Value Errors(const Statistics& m) {
   return Object(StructOf({{"mean_mm", Number(kMillimetres * m.mean)},

@@ -33,6 +33,7 @@ ALLOWED = {
     "core/compensation": (*_core_rows()["core/compensation"], "compensation"),
     "compensation": ("core/geometry", "io"),  # of which the header-only part alone: it links Eigen only; maps its file
     "formats": ("core/base", "proto", "yaml", "json", "urdf", "io"),
+    "programs": ("core/base", "formats"),
     "convert": ("core", "compensation", "proto", "openssl", "io"),
     "server/store": ("core/base", "proto", "sqlite", "openssl", "io"),
     "server/jobs": ("core/base", "convert", "server/store", "proto", "io", "spdlog"),
@@ -46,17 +47,21 @@ ALLOWED = {
     "server": (
         "core", "compensation", "convert", "formats", "proto", "grpc", "io", "spdlog", "cli11", "sqlite", "openssl"),
     "client/cli": (
-        "core", "compensation", "formats", "convert", "client", "proto", "grpc", "io", "cli11", "json", "openssl"),
-    "client": ("core/base", "compensation", "proto", "grpc", "io", "openssl"),
+        "core", "compensation", "formats", "programs", "convert", "client", "proto", "grpc", "io", "cli11", "json",
+        "openssl"),
+    "client/agent": ("core/base", "compensation", "client", "proto", "io", "cli11", "json", "spdlog", "toml"),
+    "client/agent/sources": ("core/base", "formats", "client/agent", "proto", "io"),
+    "client": ("core/base", "proto", "grpc", "io", "openssl"),
     "tests": (
-        "core", "compensation", "formats", "convert", "server", "client", "bench", "proto", "grpc", "sqlite", "yaml", "json",
-        "urdf", "openssl", "spdlog", "cli11", "io"),
+        "core", "compensation", "formats", "programs", "convert", "server", "client", "bench", "proto", "grpc", "sqlite",
+        "yaml", "json", "urdf", "openssl", "spdlog", "cli11", "io"),
     "bench": (
-        "core", "compensation", "formats", "convert", "server", "client", "tests", "proto", "grpc", "json", "io", "sqlite"),
+        "core", "compensation", "formats", "programs", "convert", "server", "client", "tests", "proto", "grpc", "json", "io",
+        "sqlite"),
 }
 
 # Folders whose row does not reach into these folders below them, which have rows of their own.
-NOT_BELOW = {"client": ("client/cli",)}
+NOT_BELOW = {"client": ("client/cli", "client/agent"), "client/agent": ("client/cli",), "client/cli": ("client/agent",)}
 
 # Library word -> how its headers begin, as they stand in an #include.
 EXTERNAL_HEADERS = {
@@ -69,6 +74,7 @@ EXTERNAL_HEADERS = {
     "openssl": ("openssl/",),
     "spdlog": ("spdlog/",),
     "cli11": ("CLI/",),
+    "toml": ("toml++/",),
     # The core has no files, clock, threads or environment.
     "io": ("fstream", "iostream", "filesystem", "thread", "chrono", "ctime", "cstdio", "unistd.h", "sys/"),
 }
@@ -84,6 +90,7 @@ EXTERNAL_TARGETS = {
     "openssl": ("openssl",),
     "spdlog": ("spdlog",),
     "cli11": ("cli11",),
+    "toml": ("tomlplusplus",),
 }
 
 

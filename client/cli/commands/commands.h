@@ -33,6 +33,7 @@ void AddRobotEvent(const Command& root);
 void AddWatch(const Command& root);
 void AddSimulate(const Command& root);
 void AddModel(const Command& root);
+void AddProgram(const Command& root);
 void AddReproduce(const Command& root);
 void AddVersion(const Command& root);
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "absl/strings/str_join.h"
 #include "client/cli/commands/commands.h"
 #include "client/cli/inputs.h"
 #include "client/cli/names.h"
@@ -15,6 +14,7 @@
 #include "client/cli/remote.h"
 #include "client/cli/reply.h"
 #include "client/cli/table.h"
+#include "client/cli/verdict.h"
 #include "convert/run.h"
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
@@ -125,16 +125,6 @@ absl::Status Deliver(const Invocation& invocation, const Options& options,
   return Reply(invocation, response, [&] { return Text(options, nominal, request, response); });
 }
 
-// do_not_apply is refused by the compensation itself.
-void WarnOfVerdict(const Invocation& invocation, const v1::CalibrationReport& report) {
-  if (report.verdict() != "apply_within_volume") return;
-  const std::string reasons = absl::StrJoin(report.verdict_reasons(), "; ");
-  Warn(invocation.console,
-       absl::StrCat("the calibration's verdict is apply within volume: right where it was "
-                    "measured, not shown elsewhere",
-                    reasons.empty() ? "" : " (" + reasons + ")"));
-}
-
 absl::StatusOr<v1::CompensateRequest> LoadRequest(const Options& options,
                                                   const v1::Nominal& nominal) {
   const absl::StatusOr<std::vector<v1::CompensationTarget>> targets =
@@ -163,7 +153,7 @@ absl::Status CompensateLocally(const Invocation& invocation, const Options& opti
   TRUEPOSE_ASSIGN_OR_RETURN(std::optional<OutputFile> output, OpenOutput(options.output));
   TRUEPOSE_ASSIGN_OR_RETURN(const v1::CompensateResponse response,
                             convert::RunCompensation(robot.nominal, calibration, request));
-  WarnOfVerdict(invocation, calibration.report());
+  WarnOfVerdict(invocation.console, calibration.report());
   return Deliver(invocation, options, robot.nominal, request, response, std::move(output));
 }
 
@@ -181,7 +171,7 @@ absl::Status CompensateOnServer(const Invocation& invocation, const Options& opt
         request.set_calibration(name);
         TRUEPOSE_ASSIGN_OR_RETURN(const v1::CompensateResponse response,
                                   client.Compensate(request));
-        WarnOfVerdict(invocation, robot.calibration.report());
+        WarnOfVerdict(invocation.console, robot.calibration.report());
         return Deliver(invocation, options, robot.nominal, request, response, std::move(output));
       });
 }

@@ -1,0 +1,31 @@
+// Where corrected joints come from for the filters of robot programs (programs/correct.h).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "client/client.h"
+#include "programs/correct.h"
+#include "truepose/v1/calibration.pb.h"
+#include "truepose/v1/robot.pb.h"
+
+namespace truepose::cli {
+
+// What a program's targets are corrected by, and the joints of the robot that runs it.
+struct ProgramCorrection {
+  std::vector<bool> prismatic;
+  programs::Correction correct;
+};
+
+// By a calibration from files. Both messages have to outlive it.
+// @returns kInvalidArgument for a measuring robot, which is read and not commanded.
+absl::StatusOr<ProgramCorrection> LocalCorrection(const v1::Nominal& nominal,
+                                                  const v1::Calibration& calibration);
+
+// By a server, in as many calls as it takes. `client` has to outlive it.
+absl::StatusOr<ProgramCorrection> RemoteCorrection(const client::Client& client,
+                                                   const v1::Nominal& nominal,
+                                                   const std::string& calibration);
+
+}  // namespace truepose::cli

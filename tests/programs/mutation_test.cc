@@ -1,0 +1,127 @@
+// Thousands of damaged programs. Whatever is left of them, reading ends, and a correction changes
+// nothing beside the numbers that it replaces. Catches: a crash, an endless loop, a proof that
+// fails on our own writing, bytes lost; under sanitizers every bad access.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "programs/correct.h"
+#include "programs/dialect.h"
+#include "tests/programs/samples.h"
+
+namespace truepose::programs {
+namespace {
+
+constexpr int kCases = 4000;
+
+class Mutator {
+ public:
+  explicit Mutator(uint64_t seed) : random_(seed) {}
+
+  std::string Damage(std::string text) {
+    const size_t places = 1 + Below(6);
+    for (size_t i = 0; i < places && !text.empty(); ++i) DamageOnce(text);
+    return text;
+  }
+
+ private:
+  size_t Below(size_t n) { return random_() % n; }
+
+  // Bytes that mean something to a dialect come more often than chance would have them.
+  char Byte() {
+    constexpr std::string_view kLikely = "\"'[](){}:=,;.!#&\\\n\r\t -+0123456789eEaApP$_\xFC";
+    return Below(5) == 0 ? static_cast<char>(1 + Below(255)) : kLikely[Below(kLikely.size())];
+  }
+
+  void DamageOnce(std::string& text) {
+    const size_t at = Below(text.size());
+    const size_t length = 1 + Below(std::min<size_t>(text.size() - at, 60));
+    switch (Below(6)) {
+      case 0:
+        text[at] = Byte();
+        break;
+      case 1:
+        text.insert(at, 1, Byte());
+        break;
+      case 2:
+        text.erase(at, length);
+        break;
+      case 3:
+        text.insert(Below(text.size()), text.substr(at, length));
+        break;
+      case 4:
+        text.resize(at);
+        break;
+      default:
+        text.insert(at, Below(50), Byte());
+    }
+  }
+
+  std::mt19937_64 random_;
+};
+
+// The text with every joint number that was replaced taken out.
+std::string Rest(const std::string& text, const Program& program,
+                 const std::vector<Change>& changes) {
+  std::vector<JointNumber> numbers;
+  for (const JointTarget& target : program.targets) {
+    const bool changed = std::any_of(changes.begin(), changes.end(),
+                                     [&](const Change& c) { return c.line == target.line; });
+    if (changed) numbers.insert(numbers.end(), target.joints.begin(), target.joints.end());
+  }
+  std::sort(numbers.begin(), numbers.end(),
+            [](const JointNumber& a, const JointNumber& b) { return a.begin > b.begin; });
+  std::string rest = text;
+  for (const JointNumber& n : numbers) rest.erase(n.begin, n.end - n.begin);
+  return rest;
+}
+
+class MutationTest : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(MutationTest, DamagedProgramsKeepTheirBytes) {
+  const std::string name = GetParam(), whole = Golden(name);
+  const Dialect dialect = *DialectOfFile(name);
+  Mutator mutator(7);
+  int corrected_programs = 0;
+  for (int i = 0; i < kCases && !HasFailure(); ++i) {
+    const std::string text = mutator.Damage(whole);
+    const auto corrected =
+        CorrectProgram(text, name, dialect, kSixRevolute, Shifted, {.keep_uncorrected = true});
+    ASSERT_TRUE(corrected.ok()) << corrected.status() << "\n" << text;
+    corrected_programs += !corrected->changes.empty();
+    const Program before = ReadProgram(text, dialect, 6);
+    const Program after = ReadProgram(corrected->text, dialect, 6);
+    EXPECT_EQ(Rest(text, before, corrected->changes),
+              Rest(corrected->text, after, corrected->changes));
+  }
+  // A mutator that leaves nothing to correct would test nothing.
+  EXPECT_GT(corrected_programs, kCases / 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(Dialects, MutationTest,
+                         ::testing::Values("palletize.script", "weld.src", "weld.dat",
+                                           "polish.mod"),
+                         [](const auto& test) {
+                           std::string name = test.param;
+                           name[name.find('.')] = '_';
+                           return name;
+                         });
+
+// Would catch a reader that looks ahead without bound: each of these takes minutes then, and
+// milliseconds in proportion to the text.
+TEST(MutationTest, LongNonsenseIsReadInOneGo) {
+  for (const Dialect dialect : {Dialect::kUrScript, Dialect::kKrl, Dialect::kRapid}) {
+    for (const char* piece : {"movej(", "movec(", "[", "{A1 ", "PTP {", "MoveAbsJ ", "a{", "set_x(",
+                              "a=[", "\"", "\n\n", "movec([1,", "A1 1,", "MoveAbsJ \\",
+                              "jointtarget ", "d2r(", "p[", "x:=[[", "PTP a["}) {
+      std::string text;
+      while (text.size() < 400'000) text += piece;
+      const Program program = ReadProgram(text, dialect, 6);
+      EXPECT_TRUE(program.targets.empty()) << piece;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace truepose::programs
