@@ -44,6 +44,12 @@ DoneSession DoneOf(const std::filesystem::path& file) {
   return {NameOf(file), std::chrono::system_clock::from_time_t(status.st_mtime), status.st_size};
 }
 
+// Of what the source said; the time is when it said so.
+std::string BytesOf(v1::Session content) {
+  content.clear_create_time();
+  return content.SerializeAsString();
+}
+
 absl::Status Refusal(absl::StatusCode code, const std::string& found, const char* expected) {
   FaultList faults;
   faults.Add("session", found, expected);
@@ -115,9 +121,7 @@ absl::StatusOr<Spool::Session> Spool::Begin(const v1::Session& content,
                    "another session");
   const auto found = sessions_.find(content.name());
   if (found != sessions_.end()) {
-    v1::Session stored = found->second->content();
-    *stored.mutable_create_time() = content.create_time();
-    if (stored.SerializeAsString() == content.SerializeAsString()) return found->second;
+    if (BytesOf(found->second->content()) == BytesOf(content)) return found->second;
     return Refusal(absl::StatusCode::kAlreadyExists, content.name() + " with other values",
                    "a new UUID");
   }
@@ -164,6 +168,13 @@ std::vector<DoneSession> Spool::Done() const {
 bool Spool::IsDone(const std::string& name) const {
   std::lock_guard lock(mutex_);
   return done_.count(name) > 0;
+}
+
+absl::StatusOr<int64_t> Spool::DoneReadings(const std::string& name) const {
+  Budget unlimited(0);
+  TRUEPOSE_ASSIGN_OR_RETURN(const auto file,
+                            SessionFile::Open(disk_, unlimited, PathOf(name, kDoneSuffix)));
+  return file->readings();
 }
 
 absl::StatusOr<Spool::Session> Spool::Reopen(const std::string& name) {

@@ -55,6 +55,8 @@ class Spool {
   absl::Status SetDone(const std::string& name);
   std::vector<DoneSession> Done() const;
   bool IsDone(const std::string& name) const;
+  // Of a done session, which is read for it.
+  absl::StatusOr<int64_t> DoneReadings(const std::string& name) const;
   // Back among the sessions: the server has it no more.
   absl::StatusOr<Session> Reopen(const std::string& name);
   // Takes a done session's file away.
