@@ -7,6 +7,8 @@
 namespace truepose::agent {
 namespace {
 
+constexpr std::chrono::milliseconds kPause{100};
+
 const char* NameOf(StepKind step) {
   switch (step) {
     case StepKind::kNone:
@@ -55,7 +57,6 @@ void RequestKeeper::RequestStop() {
   changed_.notify_all();
 }
 
-// Readings come faster than they are worth a report each, so a pass is followed by a pause.
 bool RequestKeeper::Wait() {
   std::unique_lock lock(mutex_);
   changed_.wait_for(lock, options_.interval, [this] { return notified_ || stopping_; });
@@ -63,12 +64,24 @@ bool RequestKeeper::Wait() {
   return !stopping_;
 }
 
+// Readings come faster than they are worth a report each, and a server that is away is not asked
+// more often than needed.
+void RequestKeeper::Pause() {
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, kPause, [this] { return stopping_; });
+}
+
 void RequestKeeper::RunThread() {
   while (Wait()) {
     for (const std::string& robot : options_.robots) {
       const absl::Status status = Keep(robot);
-      if (!status.ok()) log_(absl::StrCat(robot, ": ", std::string(status.message())));
+      std::string& problem = problems_[robot];
+      const std::string found(status.message());
+      if (!status.ok() && found != problem) log_(absl::StrCat(robot, ": ", found));
+      problem = found;
     }
+    options_.after_pass();
+    Pause();
   }
 }
 

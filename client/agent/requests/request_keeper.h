@@ -4,6 +4,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -19,7 +20,8 @@ namespace truepose::agent {
 struct RequestKeeperOptions {
   std::vector<std::string> robots;
   NextStepOptions steps;
-  std::chrono::milliseconds interval{1'000};  // of reports of progress, and after a failed step
+  std::chrono::milliseconds interval{1'000};  // of looks at what nobody told of
+  std::function<void()> after_pass = [] {};   // in the thread, once all robots were looked after
 };
 
 class RequestKeeper {
@@ -39,6 +41,7 @@ class RequestKeeper {
  private:
   void RunThread();
   bool Wait();
+  void Pause();
   // Makes steps of a robot until none is left. @returns the step that failed.
   absl::Status Keep(const std::string& robot);
   absl::Status Make(StepKind step, const std::string& robot, const OpenRequest& open,
@@ -53,6 +56,7 @@ class RequestKeeper {
   Spool& spool_;
   const client::Client& client_;
   const std::function<void(const std::string&)> log_;
+  std::map<std::string, std::string> problems_;  // of the thread: of each robot, as logged last
   std::mutex mutex_;
   std::condition_variable changed_;
   bool notified_ = true, stopping_ = false;
