@@ -20,6 +20,7 @@
 #include "server/services/bindings/bindings.h"
 #include "server/services/recalibration_job.h"
 #include "server/services/release.h"
+#include "server/services/table_jobs.h"
 #include "server/store/store.h"
 #include "server/time_zone.h"
 #include "server/watch/wake_hub.h"
@@ -36,11 +37,16 @@ std::string ToGrpc(const ListenAddress& address) {
   return absl::StrCat(address.host == "localhost" ? "127.0.0.1" : address.host, ":", address.port);
 }
 
+absl::Status OnEnd(store::Transaction& transaction, const v1::CalibrationJob& job) {
+  TRUEPOSE_RETURN_IF_ERROR(services::EndTableJob(transaction, job));
+  return services::MoveRequestOfJob(transaction, job);
+}
+
 jobs::EngineOptions ToEngineOptions(const ServerOptions& options) {
   jobs::EngineOptions engine;
   engine.workers = options.workers;
   engine.with_result = services::ReleaseWithinLimits;
-  engine.on_end = services::MoveRequestOfJob;
+  engine.on_end = OnEnd;
   return engine;
 }
 

@@ -24,15 +24,7 @@ absl::Status ChangeState(Transaction& transaction, v1::CalibrationJob& job, v1::
 }
 
 absl::Status Fail(Transaction& transaction, v1::CalibrationJob& job, const absl::Status& error) {
-  v1::JobError& told = *job.mutable_error();
-  told.set_code(error.raw_code());
-  told.set_message(std::string(error.message()));
-  for (const Fault& fault : FaultsOf(error)) {
-    v1::Fault& one = *told.add_faults();
-    one.set_field(fault.field);
-    one.set_found(fault.found);
-    one.set_expected(fault.expected);
-  }
+  *job.mutable_error() = ToJobError(error);
   return ChangeState(transaction, job, v1::FAILED, kNobody);
 }
 
@@ -108,6 +100,19 @@ absl::StatusOr<std::optional<v1::CalibrationJob>> HeldJob(Snapshot& snapshot, co
 }
 
 }  // namespace
+
+v1::JobError ToJobError(const absl::Status& error) {
+  v1::JobError told;
+  told.set_code(error.raw_code());
+  told.set_message(std::string(error.message()));
+  for (const Fault& fault : FaultsOf(error)) {
+    v1::Fault& one = *told.add_faults();
+    one.set_field(fault.field);
+    one.set_found(fault.found);
+    one.set_expected(fault.expected);
+  }
+  return told;
+}
 
 absl::StatusOr<std::optional<Claim>> ClaimNext(Transaction& transaction) {
   TRUEPOSE_ASSIGN_OR_RETURN(const std::optional<std::string> name,

@@ -36,6 +36,9 @@ struct Outcome {
   absl::Status error = {};
 };
 
+// An error as jobs and tables show it, with its faults.
+v1::JobError ToJobError(const absl::Status& error);
+
 // PENDING -> RUNNING of the one whose turn it is (store::NextJob); nothing when none may run.
 absl::StatusOr<std::optional<Claim>> ClaimNext(store::Transaction& transaction);
 
