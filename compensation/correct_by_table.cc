@@ -93,7 +93,7 @@ class TableSlowWay {
     Motions motions;
     SetMotions(table_.arm.nominal, q_chain.data(), &motions);
     X_nominal_ = Forward(table_.arm.nominal, motions);
-    X_corrected_ = CorrectedFlange(table_.arm.nominal, motions, lookup.delta);
+    X_corrected_ = CorrectedFlange(table_, motions, lookup.delta);
     remainder_ = Remainder(X_target_, X_corrected_);
     result->position_error_m = remainder_.head<3>().norm();
     result->rotation_error_rad = remainder_.tail<3>().norm();
@@ -185,7 +185,7 @@ Tip TipByTable(const Table& table, const double* q_controller, const Pose& X_FT,
   if (tip.outcome != Outcome::kOk) return tip;
   Motions motions;
   SetMotions(table.arm.nominal, q_chain.data(), &motions);
-  tip.X_BT = CorrectedFlange(table.arm.nominal, motions, lookup.delta) * X_FT;
+  tip.X_BT = CorrectedFlange(table, motions, lookup.delta) * X_FT;
   tip.axis_B = tip.X_BT.R * axis_T;
   return tip;
 }

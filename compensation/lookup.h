@@ -32,6 +32,10 @@ struct Grid {
   std::array<std::ptrdiff_t, std::size_t{1} << (kFastAxes - 1)> corner{};
 };
 
+// How a constant of the nominal chain turns. Most robots' links are parallel or at right angles,
+// and need no product of matrices.
+enum class Turn { kGeneral, kNone, kQuarter, kMinusQuarter };  // about x
+
 // A table whose fields were checked, ready for lookups. A plain value but for the nodes, which must
 // live as long; nothing in it changes, so any number of threads may read it.
 struct Table {
@@ -40,7 +44,8 @@ struct Table {
   std::array<TableAxis, kMaxJoints> axis;
   std::span<const float> nodes;
   Grid grid;
-  bool plain_joints = true;  // the controller's joints are the chain's
+  std::array<Turn, kMaxJoints + 1> turn{};  // of arm.nominal.constant
+  bool plain_joints = true;                 // the controller's joints are the chain's
   Eigen::Matrix<double, kMaxJoints, kMaxJoints> controller_from_chain;  // inverse of joint_scale
 };
 

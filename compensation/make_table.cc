@@ -50,6 +50,18 @@ void InvertJointMap(Table* table) {
       scale == Square::Identity(n, n) && table->arm.joint_offset.head(n).isZero(0);
 }
 
+// Right angles of data sheets come with a cosine of 6e-17.
+Turn TurnOf(const Eigen::Matrix3d& R) {
+  Eigen::Matrix3d quarter;
+  quarter << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  const auto is = [&R](const Eigen::Matrix3d& other) {
+    return (R - other).cwiseAbs().maxCoeff() < 1e-15;
+  };
+  if (is(Eigen::Matrix3d::Identity())) return Turn::kNone;
+  if (is(quarter)) return Turn::kQuarter;
+  return is(quarter.transpose()) ? Turn::kMinusQuarter : Turn::kGeneral;
+}
+
 }  // namespace
 
 Table MakeTable(const TableHeader& header, const Arm& arm,
@@ -67,6 +79,7 @@ Table MakeTable(const TableHeader& header, const Arm& arm,
   }
   SetStrides(axis, &table.grid);
   ListCorners(&table.grid);
+  for (int i = 0; i <= header.joints; ++i) table.turn[i] = TurnOf(arm.nominal.constant[i].R);
   InvertJointMap(&table);
   return table;
 }

@@ -5,7 +5,8 @@
 
 #include "compensation/above.h"
 #include "compensation/correct_by_table.h"
-#include "compensation/lu6.h"
+#include "compensation/inverse6.h"
+#include "compensation/sines.h"
 #include "compensation/table_motion.h"
 
 namespace truepose::compensation {
@@ -24,21 +25,19 @@ class Newton {
   Newton(const JointChain& chain, double length_m) : chain_(chain), length_m_(length_m) {}
 
   // @returns false when a singular value is not above `least`, or there is no inverse.
-  bool Set(const Sweep& sweep, double least) {
+  bool Set(const TableSweep& sweep, double least) {
     Eigen::Matrix<double, 6, 6> J;
-    for (int i = 0; i < 6; ++i) {
-      J.col(i) = ColumnOf(chain_, sweep, i);
-      if (chain_.prismatic[i]) J.col(i) *= length_m_;
-    }
-    J.topRows<3>() /= length_m_;
-    return SingularValuesAreAbove(J, least) && lu_.Factor(J);
+    for (int i = 0; i < 6; ++i) SetColumn(sweep, i, &J(0, i));
+    if (!inverse_.Set(J)) return false;
+    const bool surely = least * least * inverse_.SquaredNorm() <= 1;
+    return surely || SingularValuesAreAbove(J, least);
   }
 
   // @returns the largest part of the step, rad or lengths.
   double Step(const Twist& remainder, double* step) const {
     Twist weighted = remainder;
     weighted.head<3>() /= length_m_;
-    lu_.Solve(weighted, step);
+    inverse_.Solve(weighted, step);
     double largest = 0;
     for (int i = 0; i < 6; ++i) {
       largest = std::max(largest, std::abs(step[i]));
@@ -48,24 +47,25 @@ class Newton {
   }
 
  private:
+  void SetColumn(const TableSweep& sweep, int joint, double* column) const {
+    const JointAxis& axis = sweep.axis[joint];
+    const bool slides = chain_.prismatic[joint];
+    const Eigen::Vector3d arm = (sweep.X_BF.p - axis.p) / length_m_;
+    const Eigen::Vector3d shift = slides ? axis.u : axis.u.cross(arm);
+    for (int i = 0; i < 3; ++i) column[i] = shift(i);
+    for (int i = 0; i < 3; ++i) column[3 + i] = slides ? 0 : axis.u(i);
+  }
+
   const JointChain& chain_;
   double length_m_;
-  Lu6 lu_;
+  Inverse6 inverse_;
 };
 
 // What E does to the flange, to first order: the step is no better.
-Twist FirstRemainder(const JointChain& chain, const Motions& motions, const Sweep& sweep,
-                     const Delta& delta) {
-  Eigen::Matrix3d R_BL = sweep.X_BF.R * chain.constant[6].R.transpose();
-  if (!chain.prismatic[5]) {
-    const double c = motions[5].cosine, s = motions[5].sine;
-    const Eigen::Vector3d x = R_BL.col(0) * c - R_BL.col(1) * s;
-    R_BL.col(1) = R_BL.col(1) * c + R_BL.col(0) * s;
-    R_BL.col(0) = x;
-  }
-  const Eigen::Vector3d turn = R_BL * delta.tail<3>();
+Twist FirstRemainder(const TableSweep& sweep, const Delta& delta) {
+  const Eigen::Vector3d turn = sweep.X_BL.R * delta.tail<3>();
   Twist e;
-  e << -(R_BL * delta.head<3>() + turn.cross(sweep.X_BF.p - sweep.axis[5].p)), -turn;
+  e << -(sweep.X_BL.R * delta.head<3>() + turn.cross(sweep.X_BF.p - sweep.X_BL.p)), -turn;
   return e;
 }
 
@@ -76,6 +76,18 @@ bool Advance(const JointChain& chain, const Newton& newton, Motions* motions, Ta
   for (int i = 0; i < 6; ++i) state->q_chain[i] += step[i];
   AddSmallStep(chain, step, motions);
   return true;
+}
+
+// As SetMotions, of six joints.
+void SetMotionsOfSix(const JointChain& chain, const JointArray& q_chain, Motions* motions) {
+  double largest = 0, sine[6], cosine[6];
+  for (int i = 0; i < 6; ++i) largest = std::max(largest, std::abs(q_chain[i]));
+  if (!(largest <= kLargestAngle)) return SetMotions(chain, q_chain.data(), motions);
+  SinesOfSix(q_chain.data(), sine, cosine);
+  for (int i = 0; i < 6; ++i) {
+    const bool slides = chain.prismatic[i];
+    (*motions)[i] = {slides ? q_chain[i] : cosine[i], slides ? 0 : sine[i]};
+  }
 }
 
 double SizeOf(const Twist& remainder) { return remainder.cwiseAbs().maxCoeff(); }
@@ -90,7 +102,7 @@ ChordEnd Iterate(const Table& table, const Newton& newton, const Pose& desired, 
     const Lookup lookup = LookUp(table, state->q_chain.data(), Reach::kGrid);
     state->axis = lookup.axis;
     if (lookup.fault != LookupFault::kNone) return ChordEnd::kOutside;
-    state->remainder = Remainder(desired, CorrectedFlange(chain, *motions, lookup.delta));
+    state->remainder = Remainder(desired, CorrectedFlange(table, *motions, lookup.delta));
     if (tolerance.IsMet(state->remainder)) return ChordEnd::kReached;
     const double contraction = SizeOf(state->remainder) / before;
     if (!(contraction < kLeastContraction)) return ChordEnd::kGivenUp;
@@ -121,12 +133,12 @@ bool TableTolerance::IsMet(const Twist& remainder) const noexcept {
 ChordEnd CorrectByChords(const Table& table, TableChord* state) noexcept {
   const JointChain& chain = table.arm.nominal;
   Motions motions;
-  SetMotions(chain, state->q_chain.data(), &motions);
-  Sweep sweep;
-  RunSweep(chain, motions, &sweep);
+  SetMotionsOfSix(chain, state->q_chain, &motions);
+  TableSweep sweep;
+  SweepTable(table, motions, &sweep);
   Newton newton(chain, table.header.characteristic_length_m);
   if (!newton.Set(sweep, table.header.smallest_singular_value)) return ChordEnd::kGivenUp;
-  state->remainder = FirstRemainder(chain, motions, sweep, state->delta);
+  state->remainder = FirstRemainder(sweep, state->delta);
   return Iterate(table, newton, sweep.X_BF, &motions, state);
 }
 

@@ -37,31 +37,59 @@ inline Eigen::Vector3d Along(const Pose& X, const Eigen::Vector3d& v) {
   return X.R.col(0) * v(0) + X.R.col(1) * v(1) + X.R.col(2) * v(2);
 }
 
-inline Pose Times(const Pose& X, const Pose& Y) {
-  Pose Z;
-  for (int i = 0; i < 3; ++i) Z.R.col(i) = Along(X, Y.R.col(i));
-  Z.p = X.p + Along(X, Y.p);
-  return Z;
+inline Eigen::Matrix3d Turned(const Pose& X, const Eigen::Matrix3d& R) {
+  Eigen::Matrix3d turned;
+  for (int i = 0; i < 3; ++i) turned.col(i) = Along(X, R.col(i));
+  return turned;
 }
 
-// From `X` on by Z_i C[i+1] of the joints from `first` to before `last`.
-inline Pose Further(const JointChain& chain, const Motions& motions, int first, int last, Pose X) {
-  for (int i = first; i < last; ++i) {
-    Move(chain.prismatic[i], motions[i], &X);
-    X = Times(X, chain.constant[i + 1]);
+// X further by the constant i of the nominal chain.
+inline void Append(const Table& table, int i, Pose* X) {
+  const Pose& C = table.arm.nominal.constant[i];
+  X->p += Along(*X, C.p);
+  switch (table.turn[i]) {
+    case Turn::kNone:
+      return;
+    case Turn::kQuarter:
+      X->R.col(1).swap(X->R.col(2));
+      X->R.col(2) = -X->R.col(2);
+      return;
+    case Turn::kMinusQuarter:
+      X->R.col(1).swap(X->R.col(2));
+      X->R.col(1) = -X->R.col(1);
+      return;
+    case Turn::kGeneral:
+      X->R = Turned(*X, C.R);
   }
-  return X;
 }
 
 }  // namespace
 
-// In three pieces that do not wait for each other, where the processor can take them together.
-Pose CorrectedFlange(const JointChain& chain, const Motions& motions, const Delta& delta) noexcept {
-  const int last = chain.joints - 1, middle = last / 2;
-  const Pose first = Further(chain, motions, 0, middle, chain.constant[0]);
-  const Pose second = Further(chain, motions, middle, last, Pose());
-  const Pose third = Further(chain, motions, last, last + 1, PoseOfDelta(delta));
-  return Times(first, Times(second, third));
+Pose CorrectedFlange(const Table& table, const Motions& motions, const Delta& delta) noexcept {
+  const JointChain& chain = table.arm.nominal;
+  const int last = chain.joints - 1;
+  Pose X = chain.constant[0];
+  for (int i = 0; i < last; ++i) {
+    Move(chain.prismatic[i], motions[i], &X);
+    Append(table, i + 1, &X);
+  }
+  const Pose E = PoseOfDelta(delta);
+  X = {Turned(X, E.R), X.p + Along(X, E.p)};
+  Move(chain.prismatic[last], motions[last], &X);
+  Append(table, last + 1, &X);
+  return X;
+}
+
+void SweepTable(const Table& table, const Motions& motions, TableSweep* sweep) noexcept {
+  const JointChain& chain = table.arm.nominal;
+  Pose X = chain.constant[0];
+  for (int i = 0; i < chain.joints; ++i) {
+    sweep->axis[i] = {X.R.col(2), X.p};
+    if (i + 1 == chain.joints) sweep->X_BL = X;
+    Move(chain.prismatic[i], motions[i], &X);
+    Append(table, i + 1, &X);
+  }
+  sweep->X_BF = X;
 }
 
 void ChainJoints(const Table& table, const double* q_controller, double* q_chain) noexcept {
