@@ -10,7 +10,7 @@
 
 namespace truepose::compensation {
 
-using Twist = Eigen::Matrix<double, 6, 1>;  // (t, r), see table.h
+using Delta = Eigen::Matrix<double, 6, 1>;  // (t, r), see table.h
 
 // What the axes come to, for each joint and unfolded axis; MakeTable fills it.
 struct Grid {
@@ -32,6 +32,10 @@ struct Grid {
   std::array<std::ptrdiff_t, std::size_t{1} << (kFastAxes - 1)> corner{};
 };
 
+// How a constant of the nominal chain turns. Most robots' links are parallel or at right angles,
+// and need no product of matrices.
+enum class Turn { kGeneral, kNone, kQuarter, kMinusQuarter };  // about x
+
 // A table whose fields were checked, ready for lookups. A plain value but for the nodes, which must
 // live as long; nothing in it changes, so any number of threads may read it.
 struct Table {
@@ -40,6 +44,9 @@ struct Table {
   std::array<TableAxis, kMaxJoints> axis;
   std::span<const float> nodes;
   Grid grid;
+  std::array<Turn, kMaxJoints + 1> turn{};  // of arm.nominal.constant
+  bool plain_joints = true;                 // the controller's joints are the chain's
+  Eigen::Matrix<double, kMaxJoints, kMaxJoints> controller_from_chain;  // inverse of joint_scale
 };
 
 // @pre CheckTable accepts the fields.
@@ -57,7 +64,7 @@ enum class LookupFault { kNone, kOutside, kNotFinite };
 struct Lookup {
   LookupFault fault = LookupFault::kNone;
   int axis = -1;                // of kOutside: the first that is left
-  Twist delta = Twist::Zero();  // zero unless kNone
+  Delta delta = Delta::Zero();  // zero unless kNone
 };
 
 // Multilinear interpolation of the nodes around q_chain, never extrapolation.

@@ -1,4 +1,5 @@
-#include <cmath>
+#include <Eigen/Dense>
+#include <limits>
 
 #include "compensation/lookup.h"
 
@@ -38,12 +39,39 @@ void ListCorners(Grid* grid) {
   }
 }
 
+void InvertJointMap(Table* table) {
+  using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxJoints,
+                               kMaxJoints>;
+  const int n = table->header.joints;
+  const Square scale = table->arm.joint_scale.topLeftCorner(n, n);
+  table->controller_from_chain.setIdentity();
+  table->controller_from_chain.topLeftCorner(n, n) = scale.partialPivLu().inverse();
+  table->plain_joints =
+      scale == Square::Identity(n, n) && table->arm.joint_offset.head(n).isZero(0);
+}
+
+// Right angles of data sheets come with a cosine of 6e-17.
+Turn TurnOf(const Eigen::Matrix3d& R) {
+  Eigen::Matrix3d quarter;
+  quarter << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  const auto is = [&R](const Eigen::Matrix3d& other) {
+    return (R - other).cwiseAbs().maxCoeff() < 1e-15;
+  };
+  if (is(Eigen::Matrix3d::Identity())) return Turn::kNone;
+  if (is(quarter)) return Turn::kQuarter;
+  return is(quarter.transpose()) ? Turn::kMinusQuarter : Turn::kGeneral;
+}
+
 }  // namespace
 
 Table MakeTable(const TableHeader& header, const Arm& arm,
                 const std::array<TableAxis, kMaxJoints>& axis,
                 std::span<const float> nodes) noexcept {
-  Table table{header, arm, axis, nodes, {}};
+  Table table;
+  table.header = header;
+  table.arm = arm;
+  table.axis = axis;
+  table.nodes = nodes;
   for (int i = 0; i < header.joints; ++i) {
     for (int j = 0; j < header.joints; ++j) table.grid.weight[j][i] = axis[i].weight[j];
     SetRange(axis[i], i, &table.grid);
@@ -51,6 +79,8 @@ Table MakeTable(const TableHeader& header, const Arm& arm,
   }
   SetStrides(axis, &table.grid);
   ListCorners(&table.grid);
+  for (int i = 0; i <= header.joints; ++i) table.turn[i] = TurnOf(arm.nominal.constant[i].R);
+  InvertJointMap(&table);
   return table;
 }
 

@@ -68,7 +68,7 @@ dev_stage() {
 }
 
 sanitizer_stage() {
-  local folders=(tests/core tests/laws tests/formats tests/programs tests/store)
+  local folders=(tests/compensation tests/core tests/laws tests/formats tests/programs tests/store)
   export ASAN_OPTIONS="detect_leaks=1:strict_string_checks=1" UBSAN_OPTIONS="print_stacktrace=1:halt_on_error=1"
   step "build asan-ubsan" build asan-ubsan "${folders[@]/%//all}" || return
   for folder in "${folders[@]}"; do
