@@ -11,6 +11,7 @@ void AddAllCommands(const Command& root) {
   AddCalibrate(root);
   AddEvaluate(root);
   AddCompensate(root);
+  AddTable(root);
   AddJob(root);
   AddCalibration(root);
   AddDrift(root);
