@@ -12,6 +12,7 @@ void AddAllCommands(const Command& root) {
   AddEvaluate(root);
   AddCompensate(root);
   AddProgram(root);
+  AddTable(root);
   AddJob(root);
   AddCalibration(root);
   AddDrift(root);

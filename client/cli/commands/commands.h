@@ -20,6 +20,7 @@ void AddSessionImport(const Command& session);
 void AddCalibrate(const Command& root);
 void AddEvaluate(const Command& root);
 void AddCompensate(const Command& root);
+void AddTable(const Command& root);
 void AddJob(const Command& root);
 void AddCalibration(const Command& root);
 void AddCalibrationRelease(const Command& calibration);

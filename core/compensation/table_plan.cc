@@ -1,0 +1,100 @@
+#include "core/compensation/table_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "absl/strings/str_join.h"
+#include "compensation/table_layout.h"
+#include "core/base/fault.h"
+#include "core/base/status_macros.h"
+
+namespace truepose {
+namespace {
+
+using compensation::Arm;
+
+constexpr double kMegabyte = 1 << 20;
+constexpr double kMostBytes = 1e18;  // what an integer holds; such tables are refused
+
+void WidenFolded(const Arm& arm, const TableSpec& spec, const std::vector<bool>& folded,
+                 TableDomain* domain) {
+  if (!spec.box) return;
+  for (int k = 0; k < domain->axes.joints(); ++k)
+    if (folded[static_cast<size_t>(k)])
+      domain->range[static_cast<size_t>(k)] = WidestRange(arm, domain->axes, k);
+}
+
+bool Finite(const std::vector<Curvature>& curvatures) {
+  for (const Curvature& curvature : curvatures)
+    for (const Twist& twist : curvature)
+      if (!twist.allFinite()) return false;
+  return true;
+}
+
+// By how much both tolerances must grow: error goes with the square of the steps, the number of
+// nodes with their inverse in each unfolded coordinate.
+double Loosening(const TableEstimate& estimate, const TableSpec& spec) {
+  const auto axes =
+      std::count_if(estimate.nodes.begin(), estimate.nodes.end(), [](int n) { return n > 1; });
+  const double larger =
+      static_cast<double>(estimate.bytes) / static_cast<double>(spec.largest_bytes);
+  return std::pow(larger, 2.0 / static_cast<double>(std::max<ptrdiff_t>(axes, 1)));
+}
+
+}  // namespace
+
+absl::StatusOr<TablePlan> PlanTable(const Arm& arm, const TableSpec& spec) {
+  TRUEPOSE_ASSIGN_OR_RETURN(TableDomain domain, DomainOf(arm, spec));
+  const ToleranceUnits units{spec.position_tolerance_m, spec.rotation_tolerance_rad};
+  std::vector<bool> folded = FoldedAxes(arm, domain, units, spec.seed);
+  WidenFolded(arm, spec, folded, &domain);
+  domain.margin = MarginsOf(arm, domain, spec);
+  std::vector<Curvature> curvatures = CurvaturesOf(arm, domain, folded, spec.seed);
+  if (!Finite(curvatures)) {
+    FaultList faults;
+    faults.Add("calibration", "corrections that are not finite", "a calibration of this robot");
+    return faults.ToStatus(absl::StatusCode::kFailedPrecondition);
+  }
+  return TablePlan{std::move(domain), std::move(folded), units, std::move(curvatures)};
+}
+
+TableEstimate EstimateOf(const TablePlan& plan, double share) {
+  TableEstimate estimate;
+  estimate.nodes = ChooseNodes(plan.domain, plan.folded, plan.curvatures, plan.units, share);
+  const double bytes = compensation::kNodesAt +
+                       NodeCount(estimate.nodes) * compensation::kNodeFloats * sizeof(float);
+  estimate.bytes = static_cast<int64_t>(std::min(bytes, kMostBytes));
+  estimate.error = ErrorOf(plan.domain, estimate.nodes, plan.curvatures);
+  estimate.poses = plan.domain.poses;
+  estimate.unreachable = plan.domain.unreachable;
+  return estimate;
+}
+
+absl::Status CheckSize(const TableEstimate& estimate, const TablePlan& plan,
+                       const TableSpec& spec) {
+  if (estimate.bytes <= spec.largest_bytes) return absl::OkStatus();
+  const double factor = Loosening(estimate, spec);
+  FaultList faults;
+  faults.Add("largest_bytes",
+             absl::StrFormat("a table of %.4g MB with %s nodes",
+                             static_cast<double>(estimate.bytes) / kMegabyte,
+                             absl::StrJoin(estimate.nodes, " x ")),
+             absl::StrFormat("at most %.4g MB: loosen the tolerances to some %.2g mm and %.2g deg, "
+                             "or narrow the joint ranges or the box",
+                             static_cast<double>(spec.largest_bytes) / kMegabyte,
+                             1e3 * factor * plan.units.position_m,
+                             factor * plan.units.rotation_rad * 180 / std::numbers::pi));
+  return faults.ToStatus(absl::StatusCode::kFailedPrecondition);
+}
+
+absl::StatusOr<TableEstimate> EstimateTable(const Arm& arm, const TableSpec& spec) {
+  TRUEPOSE_ASSIGN_OR_RETURN(const TablePlan plan, PlanTable(arm, spec));
+  const TableEstimate estimate = EstimateOf(plan, kFirstShare);
+  TRUEPOSE_RETURN_IF_ERROR(CheckSize(estimate, plan, spec));
+  return estimate;
+}
+
+}  // namespace truepose
