@@ -30,8 +30,10 @@ def _core_rows():
 # Folder -> what it may use besides itself.
 ALLOWED = {
     **_core_rows(),
+    "core/compensation": (*_core_rows()["core/compensation"], "compensation"),
+    "compensation": ("core/geometry", "io"),  # of which the header-only part alone: it links Eigen only; maps its file
     "formats": ("core/base", "proto", "yaml", "json", "urdf", "io"),
-    "convert": ("core", "proto", "openssl", "io"),
+    "convert": ("core", "compensation", "proto", "openssl", "io"),
     "server/store": ("core/base", "proto", "sqlite", "openssl", "io"),
     "server/jobs": ("core/base", "convert", "server/store", "proto", "io", "spdlog"),
     "server/auth": ("core/base", "server/store", "proto", "io"),
@@ -41,13 +43,17 @@ ALLOWED = {
     "server/services": (
         "core/base", "convert", "server/store", "server/auth", "server/jobs", "server/resource", "server/watch",
         "server/rpc", "proto", "grpc", "io", "spdlog"),
-    "server": ("core", "convert", "formats", "proto", "grpc", "io", "spdlog", "cli11", "sqlite", "openssl"),
-    "client/cli": ("core", "formats", "convert", "client", "proto", "grpc", "io", "cli11", "json", "openssl"),
-    "client/agent": ("core/base", "client", "proto", "io", "cli11", "json", "spdlog", "toml"),
-    "client": ("core/base", "proto", "grpc", "io", "openssl"),
-    "tests": ("core", "formats", "convert", "server", "client", "bench", "proto", "grpc", "sqlite", "yaml",
-              "json", "urdf", "openssl", "spdlog", "cli11", "io"),
-    "bench": ("core", "formats", "convert", "server", "client", "tests", "proto", "grpc", "json", "io", "sqlite"),
+    "server": (
+        "core", "compensation", "convert", "formats", "proto", "grpc", "io", "spdlog", "cli11", "sqlite", "openssl"),
+    "client/cli": (
+        "core", "compensation", "formats", "convert", "client", "proto", "grpc", "io", "cli11", "json", "openssl"),
+    "client/agent": ("core/base", "compensation", "client", "proto", "io", "cli11", "json", "spdlog", "toml"),
+    "client": ("core/base", "compensation", "proto", "grpc", "io", "openssl"),
+    "tests": (
+        "core", "compensation", "formats", "convert", "server", "client", "bench", "proto", "grpc", "sqlite", "yaml", "json",
+        "urdf", "openssl", "spdlog", "cli11", "io"),
+    "bench": (
+        "core", "compensation", "formats", "convert", "server", "client", "tests", "proto", "grpc", "json", "io", "sqlite"),
 }
 
 # Folders whose row does not reach into these folders below them, which have rows of their own.
