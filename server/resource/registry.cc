@@ -1,6 +1,7 @@
 #include "server/resource/registry.h"
 
 #include "server/resource/checks.h"
+#include "truepose/v1/compensation_table.pb.h"
 #include "truepose/v1/plant.pb.h"
 #include "truepose/v1/recalibration.pb.h"
 
@@ -82,11 +83,26 @@ std::vector<ResourceType> RecalibrationTypes() {
   };
 }
 
+// What reaches a controller.
+std::vector<ResourceType> CompensationTypes() {
+  return {
+      {.kind = v1::KIND_COMPENSATION_TABLE,
+       .prototype = Prototype<v1::CompensationTable>(),
+       .collection = "compensationTables",
+       .of_robot = true,
+       .uuid_ids = true,
+       .output_only = {"state", "job", "error", "size_bytes", "sha256", "input_digest",
+                       "calibration_digest", "nominal_digest", "header", "estimate", "created_by"},
+       .check = CheckCompensationTable},
+  };
+}
+
 // Built at the first call: descriptors of protobuf are not there before main() begins.
 const std::vector<ResourceType>& Registry() {
   static const std::vector<ResourceType>& types = *[] {
     auto* all = new std::vector<ResourceType>(PlantTypes());
     for (ResourceType& type : RecalibrationTypes()) all->push_back(std::move(type));
+    for (ResourceType& type : CompensationTypes()) all->push_back(std::move(type));
     return all;
   }();
   return types;
