@@ -1,7 +1,9 @@
 #include "convert/robot.h"
 #include "convert/run.h"
 #include "core/base/status_macros.h"
+#include "core/calibrate/scope.h"
 #include "core/conversion/describe.h"
+#include "core/models/build_model.h"
 
 namespace truepose::convert {
 namespace {
@@ -63,6 +65,15 @@ absl::StatusOr<v1::ModelDescription> RunModelDescription(const v1::Nominal& nomi
   for (const NullRelation& relation : description.generic.redundancies)
     *message.add_redundancies() = RedundancyOf(relation, description.candidates);
   return message;
+}
+
+absl::Status CheckCalibratedNames(const v1::Nominal& nominal,
+                                  const v1::CalibrationOptions& options) {
+  TRUEPOSE_ASSIGN_OR_RETURN(const Robot robot, RobotFrom(nominal));
+  const std::string kind = options.model().empty() ? "modified_incremental" : options.model();
+  TRUEPOSE_ASSIGN_OR_RETURN(Model model, BuildModel(kind, robot, ModelExtent::kInternal));
+  for (const EffectGroup group : AllEffectGroups()) AddEffects(robot, group, &model);
+  return CheckScope(options.calibrate(), model);
 }
 
 }  // namespace truepose::convert

@@ -71,6 +71,11 @@ absl::StatusOr<v1::CompensateResponse> RunCompensation(const v1::Nominal& nomina
 absl::StatusOr<v1::ModelDescription> RunModelDescription(const v1::Nominal& nominal,
                                                          const std::string& kind);
 
+// Whether `options.calibrate` names what the robot's model of `options` has, with any effects.
+// @returns kInvalidArgument with a fault of `options.calibrate` a name.
+absl::Status CheckCalibratedNames(const v1::Nominal& nominal,
+                                  const v1::CalibrationOptions& options);
+
 // The same calibration in another model: predictions of base, robot and tool stay within 1e-9 m and
 // rad, and so does their covariance, which goes through the derivative of the conversion
 // (core/conversion/conversion_jacobian.h). Where the readings left directions at nominal, more

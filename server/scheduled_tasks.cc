@@ -8,6 +8,7 @@
 namespace truepose::server {
 namespace {
 
+using services::IsStopping;
 using store::Snapshot;
 using store::Transaction;
 
@@ -48,14 +49,20 @@ absl::Status ForgetOldReplies(store::Store& store) {
 }
 
 std::vector<Scheduler::Task> ScheduledTasks(store::Store& store) {
-  return {
-      {.what = "policies whose interval is over can't raise requests",
-       .run = [&store] { return services::RaiseDueRequests(store).status(); }},
-      {.what = "requests can't expire",
-       .run = [&store] { return services::ExpireRequests(store).status(); }},
-      {.what = "old events can't be forgotten", .run = [&store] { return ForgetOldEvents(store); }},
-      {.what = "old answers can't be forgotten",
-       .run = [&store] { return ForgetOldReplies(store); }}};
+  return {{.what = "policies whose interval is over can't raise requests",
+           .run =
+               [&store](const IsStopping& is_stopping) {
+                 return services::RaiseDueRequests(store, is_stopping).status();
+               }},
+          {.what = "requests can't expire",
+           .run =
+               [&store](const IsStopping& is_stopping) {
+                 return services::ExpireRequests(store, is_stopping).status();
+               }},
+          {.what = "old events can't be forgotten",
+           .run = [&store](const IsStopping&) { return ForgetOldEvents(store); }},
+          {.what = "old answers can't be forgotten",
+           .run = [&store](const IsStopping&) { return ForgetOldReplies(store); }}};
 }
 
 }  // namespace truepose::server

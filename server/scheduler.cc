@@ -51,13 +51,15 @@ bool Scheduler::WaitUntil(absl::Duration due) {
   }
 }
 
+bool Scheduler::IsStopping() {
+  const std::lock_guard lock(mutex_);
+  return stopping_;
+}
+
 void Scheduler::RunAll() {
   for (const Task& task : tasks_) {
-    {
-      const std::lock_guard lock(mutex_);
-      if (stopping_) return;
-    }
-    const absl::Status status = task.run();
+    if (IsStopping()) return;
+    const absl::Status status = task.run([this] { return IsStopping(); });
     if (!status.ok()) on_warning_(absl::StrCat(task.what, ": ", status.ToString()));
   }
 }

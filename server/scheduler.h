@@ -18,7 +18,8 @@ class Scheduler {
  public:
   struct Task {
     std::string what;  // for warnings: "old events can't be forgotten"
-    std::function<absl::Status()> run;
+    // Ends early once its argument answers true.
+    std::function<absl::Status(const std::function<bool()>& is_stopping)> run;
   };
 
   // @param every of the clock's monotonic time, from the begin of one round to the next; the first
@@ -30,13 +31,14 @@ class Scheduler {
   ~Scheduler();
 
   void Start();
-  // Waits for the task that runs. May be called again.
+  // Waits until the task that runs has ended, which it is told to. May be called again.
   void Stop();
 
  private:
   void Loop();
   void RunAll();
   bool WaitUntil(absl::Duration due);
+  bool IsStopping();
 
   const std::vector<Task> tasks_;
   const absl::Duration every_;

@@ -34,22 +34,22 @@ struct SessionStart {
 };
 
 struct SessionProgress {
-  std::string session;    // sessions/{uuid}
-  std::string robot;      // robots/{robot}
-  int64_t readings = 0;   // durable here
-  bool sealed = false;    // here; takes no more readings
-  int64_t delivered = 0;  // durable on the server, as it said last
-  bool settled = false;   // sealed on the server too
-  std::string refusal;    // what the server said against it, "" = nothing
+  std::string session = {};  // sessions/{uuid}
+  std::string robot = {};    // robots/{robot}
+  int64_t readings = 0;      // durable here
+  bool sealed = false;       // here; takes no more readings
+  int64_t delivered = 0;     // durable on the server, as it said last
+  bool settled = false;      // sealed on the server too
+  std::string refusal = {};  // what the server said against it, "" = nothing
 };
 
 // What an open recalibration request wants measured.
 struct MeasuringTask {
-  std::string request;   // robots/{robot}/recalibrationRequests/{request}
-  std::string reason;    // for people
-  std::string pose_set;  // its name, "" = the request names none
-  std::vector<v1::PoseSetPose> poses;
-  std::string session;  // that was begun for it, "" = none yet
+  std::string request = {};   // robots/{robot}/recalibrationRequests/{request}
+  std::string reason = {};    // for people
+  std::string pose_set = {};  // its name, "" = the request names none
+  std::vector<v1::PoseSetPose> poses = {};
+  std::string session = {};  // that was begun for it, "" = none yet
 };
 
 // May be called by many threads at once. All faults of a call come at once as FaultsOf(status),

@@ -121,17 +121,17 @@ const std::vector<ResourceKind>& PlantKinds() {
 }
 
 const ResourceKind& RobotKindOfResource() {
-  static const auto& kind =
-      *new ResourceKind{.word = "robot",
-                        .type = "Robot",
-                        .types = "Robots",
-                        .collection = "robots",
-                        .content = &v1::Robot::default_instance(),
-                        .service = "truepose.v1.RobotService",
-                        .output_only = {"nominal_revision", "active_calibration"},
-                        .hidden = "nominal_revision.nominal.",
-                        .example_id = "ur10",
-                        .example_set = "release_policy=ONE_PERSON limits.drift_rms_mm=0.3"};
+  static const auto& kind = *new ResourceKind{
+      .word = "robot",
+      .type = "Robot",
+      .types = "Robots",
+      .collection = "robots",
+      .content = &v1::Robot::default_instance(),
+      .service = "truepose.v1.RobotService",
+      .output_only = {"nominal_revision", "active_calibration", "active_compensation_table"},
+      .hidden = "nominal_revision.nominal.",
+      .example_id = "ur10",
+      .example_set = "release_policy=ONE_PERSON limits.drift_rms_mm=0.3"};
   return kind;
 }
 

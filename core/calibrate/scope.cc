@@ -7,6 +7,7 @@
 #include "absl/strings/str_join.h"
 #include "absl/strings/str_split.h"
 #include "core/base/fault.h"
+#include "core/base/status_macros.h"
 
 namespace truepose {
 namespace {
@@ -24,22 +25,29 @@ bool IsWord(const std::string& word) {
          word == "tool";
 }
 
-std::string InternalNames(const Problem& problem) {
+std::string InternalNames(const Model& model) {
   std::vector<std::string> names;
-  for (const Parameter& parameter : problem.model->parameters) names.push_back(parameter.name);
+  for (const Parameter& parameter : model.parameters) names.push_back(parameter.name);
   return absl::StrJoin(names, ", ");
 }
 
-// Adds the internal candidates that a word names. @returns whether it names any.
-bool AddInternal(const std::string& word, const Problem& problem, std::set<int>* free) {
+// Whether a word names that internal candidate.
+bool Names(const std::string& word, const Parameter& parameter) {
+  return parameter.name == word ||
+         (word == "joint_offsets" && parameter.role == ParameterRole::kJointOffset);
+}
+
+bool NamesAny(const std::string& word, const ParameterSet& parameters) {
+  for (const Parameter& parameter : parameters)
+    if (Names(word, parameter)) return true;
+  return false;
+}
+
+// Adds the internal candidates that a word names.
+void AddInternal(const std::string& word, const Problem& problem, std::set<int>* free) {
   const ParameterSet& parameters = problem.model->parameters;
-  const size_t before = free->size();
-  for (int i = 0; i < parameters.size(); ++i) {
-    const bool offset =
-        word == "joint_offsets" && parameters[i].role == ParameterRole::kJointOffset;
-    if (offset || parameters[i].name == word) free->insert(problem.FirstInternal() + i);
-  }
-  return free->size() > before || parameters.Find(word).has_value();
+  for (int i = 0; i < parameters.size(); ++i)
+    if (Names(word, parameters[i])) free->insert(problem.FirstInternal() + i);
 }
 
 void AddFrames(const Problem& problem, const Scope& scope, std::set<int>* free) {
@@ -59,26 +67,34 @@ bool IsPartial(const std::string& text) {
   return !WordsOf(text).empty();
 }
 
-absl::StatusOr<Scope> ScopeOf(const std::string& text, const Problem& problem) {
-  Scope scope;
+absl::Status CheckScope(const std::string& text, const Model& model) {
   const std::vector<std::string> words = WordsOf(text);
   if (words.empty() && !text.empty())
     return FaultStatus("options.calibrate", absl::StrCat("'", text, "', an empty list"),
                        "a word or the name of a parameter");
+  FaultList faults;
+  for (const std::string& word : words) {
+    if (IsWord(word) || NamesAny(word, model.parameters)) continue;
+    faults.Add("options.calibrate", absl::StrCat("'", word, "'"),
+               absl::StrCat("all, internal, external, base, tool, joint_offsets, or parameters of ",
+                            "the model: ", InternalNames(model)));
+  }
+  return faults.ToStatus();
+}
+
+absl::StatusOr<Scope> ScopeOf(const std::string& text, const Problem& problem) {
+  TRUEPOSE_RETURN_IF_ERROR(CheckScope(text, *problem.model));
+  Scope scope;
+  const std::vector<std::string> words = WordsOf(text);
   scope.tool = words != std::vector<std::string>{"base"};
   scope.base = words != std::vector<std::string>{"tool"};
   std::set<int> free;
-  FaultList faults;
   for (const std::string& word : words) {
     if (IsWord(word)) continue;
     if (const auto index = problem.model->parameters.Find(word))
       scope.named.push_back(problem.FirstInternal() + *index);
-    if (AddInternal(word, problem, &free)) continue;
-    faults.Add("options.calibrate", absl::StrCat("'", word, "'"),
-               absl::StrCat("all, internal, external, base, tool, joint_offsets, or parameters of ",
-                            "the model: ", InternalNames(problem)));
+    AddInternal(word, problem, &free);
   }
-  if (!faults.empty()) return faults.ToStatus();
   if (!IsPartial(text)) return Scope{};
   AddFrames(problem, scope, &free);
   scope.free.assign(free.begin(), free.end());

@@ -27,6 +27,9 @@ struct Scope {
 // word nor an internal candidate, also beside words that free everything; for a list of nothing.
 absl::StatusOr<Scope> ScopeOf(const std::string& text, const Problem& problem);
 
+// The faults that ScopeOf finds, as far as the model alone shows them.
+absl::Status CheckScope(const std::string& text, const Model& model);
+
 // Whether the text, without any problem, is one that frees a part only.
 bool IsPartial(const std::string& text);
 

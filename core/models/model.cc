@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/models/chain_parameters.h"
+
 namespace truepose {
 namespace {
 
@@ -108,6 +110,12 @@ Eigen::VectorXd EffectShift(const Model& model, const Eigen::VectorXd& q,
   Eigen::VectorXd moved = q;
   MovedJoints(model, q.data(), lambda.data(), conditions, &moved);
   return moved - q;
+}
+
+Eigen::VectorXd ChainParametersOf(const Model& model, const Eigen::VectorXd& lambda) {
+  Eigen::VectorXd mu;
+  const double* values = ChainParameters(model, lambda.data(), &mu);
+  return Eigen::Map<const Eigen::VectorXd>(values, ParameterCount(model.chain));
 }
 
 Pose Forward(const Model& model, const Eigen::VectorXd& q, const Eigen::VectorXd& lambda,

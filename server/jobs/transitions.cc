@@ -36,11 +36,21 @@ absl::Status Fail(Transaction& transaction, v1::CalibrationJob& job, const absl:
   return ChangeState(transaction, job, v1::FAILED, kNobody);
 }
 
-absl::Status Succeed(Transaction& transaction, v1::CalibrationJob& job,
-                     const v1::Calibration& calibration) {
-  TRUEPOSE_ASSIGN_OR_RETURN(const v1::Calibration stored,
-                            store::InsertCalibration(transaction, job, calibration));
-  job.set_calibration(stored.name());
+// Stores what the job was for. @returns the calibration that it is about.
+absl::StatusOr<std::string> StoreResult(Transaction& transaction, const v1::CalibrationJob& job,
+                                        const Outcome& outcome) {
+  if (outcome.table.has_value()) {
+    TRUEPOSE_ASSIGN_OR_RETURN(const v1::CompensationTable table,
+                              store::FinishTable(transaction, job, *outcome.table));
+    return table.calibration();
+  }
+  TRUEPOSE_ASSIGN_OR_RETURN(const v1::Calibration calibration,
+                            store::InsertCalibration(transaction, job, outcome.calibration));
+  return calibration.name();
+}
+
+absl::Status Succeed(Transaction& transaction, v1::CalibrationJob& job, const Outcome& outcome) {
+  TRUEPOSE_ASSIGN_OR_RETURN(*job.mutable_calibration(), StoreResult(transaction, job, outcome));
   return ChangeState(transaction, job, v1::SUCCEEDED, kNobody);
 }
 
@@ -66,7 +76,7 @@ absl::Status Apply(Transaction& transaction, v1::CalibrationJob& job, const Outc
   switch (outcome.kind) {
     case Outcome::Kind::kResult:
       if (IsLate(transaction, job)) return FailAsLate(transaction, job);
-      return Succeed(transaction, job, outcome.calibration);
+      return Succeed(transaction, job, outcome);
     case Outcome::Kind::kCancelled:
       return ChangeState(transaction, job, v1::CANCELLED, kNobody);
     case Outcome::Kind::kStopped:

@@ -7,7 +7,9 @@
 #include "absl/strings/str_split.h"
 #include "convert/fixture.h"
 #include "convert/frames.h"
+#include "convert/table_spec.h"
 #include "server/store/names.h"
+#include "truepose/v1/compensation_table.pb.h"
 #include "truepose/v1/plant.pb.h"
 #include "truepose/v1/recalibration.pb.h"
 
@@ -146,6 +148,13 @@ void CheckAgentReport(const Message& content, FaultList& faults) {
   if (report.spooled_readings() < 0) {
     faults.Add("spooled_readings", absl::StrCat(report.spooled_readings()), "0 or more");
   }
+}
+
+void CheckCompensationTable(const Message& content, FaultList& faults) {
+  const auto& table = static_cast<const v1::CompensationTable&>(content);
+  faults.AddAll(store::ParseCalibrationName(table.calibration(), "calibration").status());
+  const absl::Status status = convert::ValidateTableSpec(table.spec());
+  if (!status.ok()) faults.AddAll(status, "spec.");
 }
 
 }  // namespace truepose::resource

@@ -21,5 +21,7 @@ void CheckPoseSet(const Message& content, FaultList& faults);
 void CheckRobotEvent(const Message& content, FaultList& faults);
 void CheckRecalibrationPolicy(const Message& content, FaultList& faults);
 void CheckAgentReport(const Message& content, FaultList& faults);
+// The spec as convert/table_spec.h checks it without a robot.
+void CheckCompensationTable(const Message& content, FaultList& faults);
 
 }  // namespace truepose::resource

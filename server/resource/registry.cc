@@ -1,6 +1,8 @@
 #include "server/resource/registry.h"
 
 #include "server/resource/checks.h"
+#include "server/resource/stored_checks.h"
+#include "truepose/v1/compensation_table.pb.h"
 #include "truepose/v1/plant.pb.h"
 #include "truepose/v1/recalibration.pb.h"
 
@@ -55,12 +57,14 @@ std::vector<ResourceType> RecalibrationTypes() {
        .of_robot = true,
        .uuid_ids = true,
        .output_only = {"created_by"},
-       .check = CheckRobotEvent},
+       .check = CheckRobotEvent,
+       .check_within = CheckRobotEventWithin},
       {.kind = v1::KIND_RECALIBRATION_POLICY,
        .prototype = Prototype<v1::RecalibrationPolicy>(),
        .collection = "recalibrationPolicies",
        .of_robot = true,
-       .check = CheckRecalibrationPolicy},
+       .check = CheckRecalibrationPolicy,
+       .check_within = CheckPolicyWithin},
       {.kind = v1::KIND_RECALIBRATION_REQUEST,
        .prototype = Prototype<v1::RecalibrationRequest>(),
        .collection = "recalibrationRequests",
@@ -82,11 +86,26 @@ std::vector<ResourceType> RecalibrationTypes() {
   };
 }
 
+// What reaches a controller.
+std::vector<ResourceType> CompensationTypes() {
+  return {
+      {.kind = v1::KIND_COMPENSATION_TABLE,
+       .prototype = Prototype<v1::CompensationTable>(),
+       .collection = "compensationTables",
+       .of_robot = true,
+       .uuid_ids = true,
+       .output_only = {"state", "job", "error", "size_bytes", "sha256", "input_digest",
+                       "calibration_digest", "nominal_digest", "header", "estimate", "created_by"},
+       .check = CheckCompensationTable},
+  };
+}
+
 // Built at the first call: descriptors of protobuf are not there before main() begins.
 const std::vector<ResourceType>& Registry() {
   static const std::vector<ResourceType>& types = *[] {
     auto* all = new std::vector<ResourceType>(PlantTypes());
     for (ResourceType& type : RecalibrationTypes()) all->push_back(std::move(type));
+    for (ResourceType& type : CompensationTypes()) all->push_back(std::move(type));
     return all;
   }();
   return types;

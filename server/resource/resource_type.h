@@ -6,6 +6,7 @@
 
 #include "core/base/fault.h"
 #include "google/protobuf/message.h"
+#include "server/store/resources.h"
 #include "truepose/v1/watch.pb.h"
 
 namespace truepose::resource {
@@ -20,6 +21,10 @@ struct ResourceType {
   std::vector<std::string> output_only = {};
   // Every fault of the content, fields without prefix.
   void (*check)(const google::protobuf::Message& content, FaultList& faults) = nullptr;
+  // The same by what else is stored (stored_checks.h); nullptr = nothing to check.
+  absl::Status (*check_within)(store::Transaction& transaction, const store::ResourceKey& key,
+                               const google::protobuf::Message& content,
+                               FaultList& faults) = nullptr;
   // Fields whose change raises `version`; none = it has no version.
   std::vector<std::string> versioned = {};
 };

@@ -35,6 +35,17 @@ absl::Status CheckContent(const ResourceType& type, const Message& content,
   return faults.ToStatus();
 }
 
+absl::Status CheckWithin(store::Transaction& transaction, const ResourceType& type,
+                         const store::ResourceKey& key, const Message& content,
+                         const std::string& field) {
+  if (type.check_within == nullptr) return absl::OkStatus();
+  FaultList inner, faults;
+  TRUEPOSE_RETURN_IF_ERROR(type.check_within(transaction, key, content, inner));
+  if (inner.empty()) return absl::OkStatus();
+  faults.AddAll(inner.ToStatus(), absl::StrCat(field, "."));
+  return faults.ToStatus();
+}
+
 absl::Status CheckParent(store::Snapshot& snapshot, const store::ResourceKey& key) {
   if (key.robot_id.empty()) return absl::OkStatus();
   const absl::Status found = store::GetRobot(snapshot, store::RobotName(key.robot_id)).status();
@@ -83,6 +94,7 @@ absl::Status Create(store::Transaction& transaction, const ResourceType& type,
   TRUEPOSE_RETURN_IF_ERROR(CheckParent(transaction, key));
   TRUEPOSE_ASSIGN_OR_RETURN(const auto stored, store::FindResource(transaction, key));
   if (stored.has_value()) return Known(type, *stored, content, resource);
+  TRUEPOSE_RETURN_IF_ERROR(CheckWithin(transaction, type, key, content, field));
   resource.CopyFrom(content);
   StampNew(transaction, ToName(type, key), resource);
   return Put(transaction, type, resource);
@@ -107,6 +119,9 @@ absl::Status Update(store::Transaction& transaction, const ResourceType& type,
   TRUEPOSE_RETURN_IF_ERROR(ApplyUpdate(changes, mask, type.output_only, resource));
   TRUEPOSE_RETURN_IF_ERROR(CheckContent(type, resource, field));
   if (MessageDifferencer::Equals(*before, resource)) return absl::OkStatus();
+  TRUEPOSE_ASSIGN_OR_RETURN(const store::ResourceKey key,
+                            ParseName(type, GetText(resource, "name"), name_field));
+  TRUEPOSE_RETURN_IF_ERROR(CheckWithin(transaction, type, key, resource, field));
   RaiseVersion(type, *before, resource);
   return Replace(transaction, type, resource);
 }

@@ -110,6 +110,31 @@ void FillFacts(const Administration& administration, v1::ServerStatus& status) {
   status.set_watchers(facts.watchers());
 }
 
+bool MakesTokens(const v1::Token& token, absl::Time now) {
+  const bool expired = token.has_expire_time() && store::ToTime(token.expire_time()) <= now;
+  return token.admin() && !token.has_revoke_time() && !expired;
+}
+
+// Whether nobody but this token may make another.
+absl::StatusOr<bool> IsLastAdmin(Transaction& transaction, const std::string& name) {
+  TRUEPOSE_ASSIGN_OR_RETURN(const auto tokens, store::AllTokens(transaction));
+  bool is_last = false;
+  for (const store::StoredToken& stored : tokens) {
+    if (!MakesTokens(stored.token, transaction.now())) continue;
+    if (stored.token.name() != name) return false;
+    is_last = true;
+  }
+  return is_last;
+}
+
+absl::StatusOr<v1::Token> Revoke(Transaction& transaction, const std::string& name) {
+  TRUEPOSE_ASSIGN_OR_RETURN(const bool is_last, IsLastAdmin(transaction, name));
+  if (!is_last) return store::RevokeToken(transaction, name);
+  return store::Refusal(absl::StatusCode::kFailedPrecondition, "name",
+                        absl::StrCat(name, ", the last token of an admin"),
+                        "one beside another admin's; create that before");
+}
+
 }  // namespace
 
 absl::StatusOr<v1::CreateTokenResponse> Bootstrap(const CallContext& call,
@@ -152,7 +177,7 @@ absl::StatusOr<v1::ListTokensResponse> ListTokens(const CallContext& call,
 absl::StatusOr<v1::Token> RevokeToken(const CallContext& call,
                                       const v1::RevokeTokenRequest& request) {
   TRUEPOSE_ASSIGN_OR_RETURN(v1::Token token, call.store.Write([&](Transaction& transaction) {
-    return store::RevokeToken(transaction, request.name());
+    return Revoke(transaction, request.name());
   }));
   call.administration->authenticator.Learn({.token = token, .secret_sha256 = ""});
   return token;
@@ -171,6 +196,7 @@ absl::StatusOr<v1::ServerStatus> GetServerStatus(const CallContext& call,
   status.set_revision(revision);
   *status.mutable_server_time() = store::ToTimestamp(call.store.clock().Now());
   status.set_principal(call.caller.principal);
+  status.set_admin(call.caller.is_admin);
   status.set_principal_kind(call.caller.is_machine ? v1::MACHINE : v1::PERSON);
   return status;
 }

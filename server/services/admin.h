@@ -24,7 +24,8 @@ absl::StatusOr<v1::CreateTokenResponse> CreateToken(const CallContext& call,
 // Newest first.
 absl::StatusOr<v1::ListTokensResponse> ListTokens(const CallContext& call,
                                                   const v1::ListTokensRequest& request);
-// Also the caller's own. Calls and streams of the token end with kUnauthenticated from then on. A
+// Also the caller's own, but not the last of an admin, after which nobody could make another:
+// kFailedPrecondition. Calls and streams of the token end with kUnauthenticated from then on. A
 // repeat returns the same.
 absl::StatusOr<v1::Token> RevokeToken(const CallContext& call,
                                       const v1::RevokeTokenRequest& request);

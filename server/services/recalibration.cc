@@ -15,6 +15,7 @@
 #include "server/services/recalibration_requests.h"
 #include "server/services/recalibration_rules.h"
 #include "server/services/stored_resources.h"
+#include "server/store/calibrations.h"
 #include "server/store/checksum.h"
 #include "server/store/jobs.h"
 #include "server/store/names.h"
@@ -84,6 +85,24 @@ NewRequest Asked(const Caller& caller, const v1::CreateRecalibrationRequestReque
   return made;
 }
 
+// Names of parameters are known once the robot's model is.
+absl::Status CheckCalibrate(Snapshot& snapshot, const std::string& robot_name,
+                            const std::string& calibrate) {
+  if (calibrate.empty() || calibrate == "all") return absl::OkStatus();
+  TRUEPOSE_ASSIGN_OR_RETURN(const v1::Robot robot, GetLiveRobot(snapshot, robot_name, "parent"));
+  v1::CalibrationOptions options;
+  if (!robot.active_calibration().empty()) {
+    TRUEPOSE_ASSIGN_OR_RETURN(const v1::Calibration active,
+                              store::GetCalibration(snapshot, robot.active_calibration()));
+    options.set_model(active.options().model());
+  }
+  options.set_calibrate(calibrate);
+  FaultList faults;
+  faults.AddAll(convert::CheckCalibratedNames(robot.nominal_revision().nominal(), options),
+                "recalibration_request.");
+  return faults.ToStatus();
+}
+
 absl::Status CheckPoses(const PosesToMeasure& poses, const std::string& robot) {
   if (poses.missing.empty()) return absl::OkStatus();
   return store::Refusal(absl::StatusCode::kFailedPrecondition, "recalibration_request.pose_set",
@@ -97,6 +116,8 @@ absl::StatusOr<Request> Create(Transaction& transaction, const Caller& caller,
   TRUEPOSE_RETURN_IF_ERROR(GetLiveRobot(transaction, request.parent(), "parent").status());
   TRUEPOSE_ASSIGN_OR_RETURN(auto repeat, FindRepeat(transaction, request));
   if (repeat.has_value()) return *std::move(repeat);
+  TRUEPOSE_RETURN_IF_ERROR(
+      CheckCalibrate(transaction, request.parent(), request.recalibration_request().calibrate()));
   TRUEPOSE_RETURN_IF_ERROR(CheckExpiry(request.recalibration_request(), transaction.now()));
   return RaiseRequest(transaction, Asked(caller, request), poses);
 }
@@ -146,8 +167,9 @@ absl::Status Measure(Transaction& transaction, const std::string& principal,
   return AppendStep(transaction, v1::REQUEST_MEASURING, principal, session, request);
 }
 
-absl::Status CreateJob(Transaction& transaction, const Caller& caller, Request& request) {
-  TRUEPOSE_ASSIGN_OR_RETURN(const auto asked, JobFor(transaction, request));
+absl::Status CreateJob(Transaction& transaction, const Caller& caller, const std::string& split,
+                       Request& request) {
+  TRUEPOSE_ASSIGN_OR_RETURN(const auto asked, JobFor(transaction, request, split));
   TRUEPOSE_ASSIGN_OR_RETURN(v1::CalibrationJob frozen, FreezeInput(transaction, asked));
   frozen.set_created_by(caller.principal);
   frozen.set_created_by_machine(caller.is_machine);
@@ -201,7 +223,7 @@ absl::StatusOr<Request> CalibrateForRequest(const CallContext& call,
                                             const v1::CalibrateForRequestRequest& request) {
   auto changed =
       Step(call, request, v1::REQUEST_CALIBRATING, [&](Transaction& transaction, Request& asked) {
-        return CreateJob(transaction, call.caller, asked);
+        return CreateJob(transaction, call.caller, request.split(), asked);
       });
   if (changed.ok()) call.engine.Wake();
   return changed;

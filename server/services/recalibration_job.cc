@@ -21,11 +21,6 @@ using store::Transaction;
 
 constexpr char kField[] = "recalibration_request";
 
-// Fits sessions of any length and with any columns.
-bool IsRatio(const std::string& split) {
-  return split == "even-odd" || split.starts_with("every:") || split.starts_with("random:");
-}
-
 bool HasColumn(const v1::Session& session, const std::string& column) {
   const auto& columns = session.extra_columns();
   return std::find(columns.begin(), columns.end(), column) != columns.end();
@@ -34,7 +29,7 @@ bool HasColumn(const v1::Session& session, const std::string& column) {
 // The options of `active` for another session.
 v1::CalibrationOptions OptionsAs(const v1::Calibration& active, const v1::Session& session) {
   v1::CalibrationOptions options = active.options();
-  if (!IsRatio(options.split())) options.clear_split();
+  options.clear_split();
   if (!HasColumn(session, options.group_column())) options.clear_group_column();
   if (options.prior() == "calibration") options.clear_prior();
   options.clear_prior_calibration();
@@ -90,12 +85,14 @@ std::string EndOf(const v1::CalibrationJob& job) {
 }  // namespace
 
 absl::StatusOr<v1::CreateCalibrationJobRequest> JobFor(Snapshot& snapshot,
-                                                       const v1::RecalibrationRequest& request) {
+                                                       const v1::RecalibrationRequest& request,
+                                                       const std::string& split) {
   v1::CreateCalibrationJobRequest job;
   job.set_robot(RobotOf(request));
   job.add_sessions(request.session());
   job.set_recalibration_request(request.name());
   TRUEPOSE_ASSIGN_OR_RETURN(*job.mutable_options(), OptionsFor(snapshot, request, job.robot()));
+  job.mutable_options()->set_split(split.empty() ? kSplitOfRequest : split);
   TRUEPOSE_RETURN_IF_ERROR(convert::ValidateOptions(job.options()));
   return job;
 }

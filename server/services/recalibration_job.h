@@ -11,14 +11,19 @@
 
 namespace truepose::services {
 
+// A request has some 20 poses: a half of them, as of a long session, would identify too little; a
+// quarter are the 5 that an interval of the improvement needs at least.
+inline constexpr char kSplitOfRequest[] = "random:1:0.75";
+
 // The job over the request's session, with the options of the robot's active calibration, so that
-// both can be compared, but for what belongs to its data: a split that counts rows or names a value
-// is dropped, a group column that the session lacks too. `calibrate` is the request's; when that
-// isn't all, the active calibration is the prior. Without an active one the options are the default
-// ones.
+// both can be compared, but for what belongs to its data: the split is
+// `split`, "" = kSplitOfRequest; a group column that the session lacks is dropped. `calibrate` is
+// the request's; when that isn't all, the active calibration is the prior. Without an active one
+// the options are the default ones.
 // @returns kInvalidArgument with faults of the options.
 absl::StatusOr<v1::CreateCalibrationJobRequest> JobFor(store::Snapshot& snapshot,
-                                                       const v1::RecalibrationRequest& request);
+                                                       const v1::RecalibrationRequest& request,
+                                                       const std::string& split);
 
 // Binds a job that was created to the request that it names: MEASURING -> CALIBRATING. A job
 // without one, one that has ended and one that is bound already change nothing. @returns the

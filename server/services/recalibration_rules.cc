@@ -2,8 +2,10 @@
 
 #include <vector>
 
+#include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "absl/strings/strip.h"
 #include "server/store/message.h"
 
 namespace truepose::services {
@@ -32,13 +34,18 @@ bool MayFollow(v1::RecalibrationState from, v1::RecalibrationState to) {
   return false;
 }
 
-// States that fit, by their names: "REQUEST_PENDING or REQUEST_ACKNOWLEDGED".
+// REQUEST_PENDING -> "pending", as people read it.
+std::string Word(v1::RecalibrationState state) {
+  return absl::AsciiStrToLower(absl::StripPrefix(v1::RecalibrationState_Name(state), "REQUEST_"));
+}
+
+// States that fit: "pending or acknowledged".
 template <typename Fits>
 std::string Named(Fits fits) {
   std::vector<std::string> names;
   for (int i = v1::RecalibrationState_MIN; i <= v1::RecalibrationState_MAX; ++i) {
     const auto state = static_cast<v1::RecalibrationState>(i);
-    if (fits(state)) names.push_back(v1::RecalibrationState_Name(state));
+    if (fits(state)) names.push_back(Word(state));
   }
   return names.empty() ? "none, it has ended" : absl::StrJoin(names, " or ");
 }
@@ -56,9 +63,8 @@ absl::Status CheckStep(const v1::RecalibrationRequest& request, v1::Recalibratio
   const std::string after = Named([from](auto state) { return MayFollow(from, state); });
   return store::Refusal(
       absl::StatusCode::kFailedPrecondition, "name",
-      absl::StrCat(request.name(), ", which is ", v1::RecalibrationState_Name(from)),
-      absl::StrCat("one that is ", before, "; what may follow ", v1::RecalibrationState_Name(from),
-                   ": ", after));
+      absl::StrCat(request.name(), ", which is ", Word(from)),
+      absl::StrCat("one that is ", before, "; what may follow ", Word(from), ": ", after));
 }
 
 }  // namespace truepose::services

@@ -20,7 +20,8 @@ using Raised = std::optional<v1::RecalibrationRequest>;
 // Names of all T of the plant for which `is_due(snapshot, item)`. Page by page, so that no look
 // holds its snapshot for long.
 template <typename T, typename IsDue>
-absl::StatusOr<std::vector<std::string>> NamesOfDue(store::Store& store, IsDue is_due) {
+absl::StatusOr<std::vector<std::string>> NamesOfDue(store::Store& store, IsDue is_due,
+                                                    const IsStopping& is_stopping) {
   constexpr int kPage = 100;
   std::vector<std::string> names;
   std::string token;
@@ -40,16 +41,18 @@ absl::StatusOr<std::vector<std::string>> NamesOfDue(store::Store& store, IsDue i
         }));
     names.insert(names.end(), due.begin(), due.end());
     token = next;
-  } while (!token.empty());
+  } while (!token.empty() && !is_stopping());
   return names;
 }
 
 // Does `act` for each name. @returns how often it answered true, or the first error.
 template <typename Act>
-absl::StatusOr<int> ForEach(const std::vector<std::string>& names, Act act) {
+absl::StatusOr<int> ForEach(const std::vector<std::string>& names, const IsStopping& is_stopping,
+                            Act act) {
   absl::Status first;
   int count = 0;
   for (const std::string& name : names) {
+    if (is_stopping()) break;
     const absl::StatusOr<bool> acted = act(name);
     first.Update(acted.status());
     count += acted.value_or(false) ? 1 : 0;
@@ -82,15 +85,16 @@ absl::StatusOr<bool> Expire(Transaction& transaction, const std::string& name) {
 
 }  // namespace
 
-absl::StatusOr<int> RaiseDueRequests(store::Store& store) {
+absl::StatusOr<int> RaiseDueRequests(store::Store& store, const IsStopping& is_stopping) {
   const absl::Time now = store.clock().Now();
   const auto is_due = [now](Snapshot& snapshot,
                             const v1::RecalibrationPolicy& policy) -> absl::StatusOr<bool> {
     TRUEPOSE_ASSIGN_OR_RETURN(const auto cause, CauseOfInterval(snapshot, policy, now));
     return cause.has_value();
   };
-  TRUEPOSE_ASSIGN_OR_RETURN(const auto names, NamesOfDue<v1::RecalibrationPolicy>(store, is_due));
-  return ForEach(names, [&](const std::string& name) -> absl::StatusOr<bool> {
+  TRUEPOSE_ASSIGN_OR_RETURN(const auto names,
+                            NamesOfDue<v1::RecalibrationPolicy>(store, is_due, is_stopping));
+  return ForEach(names, is_stopping, [&](const std::string& name) -> absl::StatusOr<bool> {
     const std::string robot = name.substr(0, name.find("/recalibrationPolicies/"));
     TRUEPOSE_ASSIGN_OR_RETURN(
         const Raised raised, WithPoses(store, robot, [&](const PosesToMeasure* poses) {
@@ -101,13 +105,14 @@ absl::StatusOr<int> RaiseDueRequests(store::Store& store) {
   });
 }
 
-absl::StatusOr<int> ExpireRequests(store::Store& store) {
+absl::StatusOr<int> ExpireRequests(store::Store& store, const IsStopping& is_stopping) {
   const absl::Time now = store.clock().Now();
   const auto is_due = [now](Snapshot&, const v1::RecalibrationRequest& request) {
     return absl::StatusOr<bool>(IsExpired(request, now));
   };
-  TRUEPOSE_ASSIGN_OR_RETURN(const auto names, NamesOfDue<v1::RecalibrationRequest>(store, is_due));
-  return ForEach(names, [&](const std::string& name) {
+  TRUEPOSE_ASSIGN_OR_RETURN(const auto names,
+                            NamesOfDue<v1::RecalibrationRequest>(store, is_due, is_stopping));
+  return ForEach(names, is_stopping, [&](const std::string& name) {
     return store.Write([&](Transaction& transaction) { return Expire(transaction, name); });
   });
 }

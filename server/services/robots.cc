@@ -28,8 +28,8 @@ namespace {
 
 // Only the server sets these, beside the standard fields.
 const std::vector<std::string>& OutputOnly() {
-  static const auto& fields =
-      *new std::vector<std::string>{"nominal_revision", "active_calibration"};
+  static const auto& fields = *new std::vector<std::string>{
+      "nominal_revision", "active_calibration", "active_compensation_table"};
   return fields;
 }
 

@@ -1,5 +1,6 @@
 #include "server/store/database_file.h"
 
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -76,7 +77,12 @@ absl::Status CheckDatabaseFile(const std::string& path) {
   return absl::OkStatus();
 }
 
-NewDatabase::NewDatabase(std::string path) : path_(std::move(path)), remove_(!fs::exists(path_)) {}
+// Of its owner alone, as it holds hashes of tokens; SQLite gives its other files the same mode.
+NewDatabase::NewDatabase(std::string path) : path_(std::move(path)), remove_(!fs::exists(path_)) {
+  if (!remove_) return;
+  const int file = open(path_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, S_IRUSR | S_IWUSR);
+  if (file >= 0) close(file);
+}
 
 NewDatabase::~NewDatabase() {
   if (!remove_) return;

@@ -18,7 +18,8 @@ absl::StatusOr<std::string> ResolveDatabasePath(const std::string& path);
 //   A file that doesn't exist or is empty is fine.
 absl::Status CheckDatabaseFile(const std::string& path);
 
-// Removes a database that didn't exist when this was made, unless it is kept.
+// Makes an empty file of a database that didn't exist, and removes it again unless it is kept. What
+// can't be made is left to who opens it.
 class NewDatabase {
  public:
   explicit NewDatabase(std::string path);

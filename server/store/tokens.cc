@@ -65,14 +65,19 @@ absl::StatusOr<Page<v1::Token>> ListTokens(Snapshot& snapshot, const PageRequest
   TRUEPOSE_ASSIGN_OR_RETURN(const PageStart start, CheckPage(id, request));
   TRUEPOSE_ASSIGN_OR_RETURN(const int64_t before,
                             AfterNumber(start, std::numeric_limits<int64_t>::max()));
-  TRUEPOSE_ASSIGN_OR_RETURN(auto rows,
-                            sql::Query(snapshot.sql(),
-                                       "SELECT sequence, message FROM tokens WHERE sequence < $1 "
-                                       "ORDER BY sequence DESC LIMIT $2",
-                                       before, start.size + 1));
-  return ReadPage<v1::Token>(id, start.size, *rows, [](const sql::Statement& row) {
-    return ReadMessage<v1::Token>(row, 1);
-  });
+  TRUEPOSE_ASSIGN_OR_RETURN(
+      auto rows, sql::Query(snapshot.sql(),
+                            "SELECT sequence, message, last_use FROM tokens WHERE sequence < $1 "
+                            "ORDER BY sequence DESC LIMIT $2",
+                            before, start.size + 1));
+  return ReadPage<v1::Token>(
+      id, start.size, *rows, [](const sql::Statement& row) -> absl::StatusOr<v1::Token> {
+        TRUEPOSE_ASSIGN_OR_RETURN(v1::Token token, ReadMessage<v1::Token>(row, 1));
+        const int64_t last_use_us = row.Int64(2);
+        if (last_use_us > 0)
+          *token.mutable_last_use_time() = ToTimestamp(absl::FromUnixMicros(last_use_us));
+        return token;
+      });
 }
 
 absl::StatusOr<std::vector<StoredToken>> AllTokens(Snapshot& snapshot) {

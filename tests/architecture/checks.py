@@ -12,7 +12,8 @@ MOST_LINES_OF_A_FILE = 500
 CPP = (".cc", ".h")
 TEXT = (".cc", ".h", ".py", ".sh", ".proto", ".sql", ".ts", ".cmake", "CMakeLists.txt")
 # Folders at the root that hold this project's own headers.
-OWN = ("core/", "formats/", "programs/", "convert/", "server/", "client/", "bench/", "tests/")
+OWN = (
+    "compensation/", "core/", "formats/", "programs/", "convert/", "server/", "client/", "bench/", "tests/")
 
 
 # The root's options and the generated messages.

@@ -30,9 +30,11 @@ def _core_rows():
 # Folder -> what it may use besides itself.
 ALLOWED = {
     **_core_rows(),
+    "core/compensation": (*_core_rows()["core/compensation"], "compensation"),
+    "compensation": ("core/geometry", "io"),  # of which the header-only part alone: it links Eigen only; maps its file
     "formats": ("core/base", "proto", "yaml", "json", "urdf", "io"),
     "programs": ("core/base", "formats"),
-    "convert": ("core", "proto", "openssl", "io"),
+    "convert": ("core", "compensation", "proto", "openssl", "io"),
     "server/store": ("core/base", "proto", "sqlite", "openssl", "io"),
     "server/jobs": ("core/base", "convert", "server/store", "proto", "io", "spdlog"),
     "server/auth": ("core/base", "server/store", "proto", "io"),
@@ -42,16 +44,22 @@ ALLOWED = {
     "server/services": (
         "core/base", "convert", "server/store", "server/auth", "server/jobs", "server/resource", "server/watch",
         "server/rpc", "proto", "grpc", "io", "spdlog"),
-    "server": ("core", "convert", "formats", "proto", "grpc", "io", "spdlog", "cli11", "sqlite", "openssl"),
-    "client/cli": ("core", "formats", "programs", "convert", "client", "proto", "grpc", "io", "cli11", "json", "openssl"),
-    "client/agent": ("core/base", "client", "proto", "io", "cli11", "json", "spdlog", "toml"),
+    "server": (
+        "core", "compensation", "convert", "formats", "proto", "grpc", "io", "spdlog", "cli11", "sqlite", "openssl"),
+    "client/cli": (
+        "core", "compensation", "formats", "programs", "convert", "client", "proto", "grpc", "io", "cli11", "json",
+        "openssl"),
+    "client/agent": ("core/base", "compensation", "client", "proto", "io", "cli11", "json", "spdlog", "toml"),
     "client/agent/sources": ("core/base", "formats", "client/agent", "proto", "io"),
     # No part of the agent itself: a robot that is made up.
     "client/agent/simulated": ("core", "convert", "client/agent", "proto", "io"),
     "client": ("core/base", "proto", "grpc", "io", "openssl"),
-    "tests": ("core", "formats", "programs", "convert", "server", "client", "bench", "proto", "grpc", "sqlite", "yaml",
-              "json", "urdf", "openssl", "spdlog", "cli11", "io"),
-    "bench": ("core", "formats", "programs", "convert", "server", "client", "tests", "proto", "grpc", "json", "io", "sqlite"),
+    "tests": (
+        "core", "compensation", "formats", "programs", "convert", "server", "client", "bench", "proto", "grpc", "sqlite",
+        "yaml", "json", "urdf", "openssl", "spdlog", "cli11", "io"),
+    "bench": (
+        "core", "compensation", "formats", "programs", "convert", "server", "client", "tests", "proto", "grpc", "json", "io",
+        "sqlite"),
 }
 
 # Folders whose row does not reach into these folders below them, which have rows of their own.

@@ -19,6 +19,8 @@ const Section11Result& Result() {
   static const auto* const kResult = [] {
     Section11Options options;
     if (std::getenv("TRUEPOSE_LONG") == nullptr) options.seeds = {1, 2, 3};
+    // A second for each look at it.
+    options.clock = [seconds = 0.0]() mutable { return seconds += 1.0; };
     auto result = Section11(options, {});
     if (!result.ok()) ADD_FAILURE() << result.status();
     return new Section11Result(result.ok() ? *std::move(result) : Section11Result{});
@@ -50,6 +52,13 @@ TEST(Section11, StandsWhereTheChapterStands) {
     EXPECT_NEAR(seed.operators.difference_m.mean, 0.082 * kMm, 0.015 * kMm) << seed.seed;
     EXPECT_NEAR(seed.operators.difference_m.sd, 0.062 * kMm, 0.012 * kMm) << seed.seed;
     EXPECT_NEAR(seed.operators_iso.pooled_m, seed.operators.mean_plus_3_sd_m / 2, 0.001 * kMm);
+  }
+}
+
+// Would catch a time that counts from the begin of all, or what another fit has taken.
+TEST(Section11, TheTimeOfAFitIsItsOwn) {
+  for (const Section11Seed& seed : Result().seeds) {
+    for (const DimeFit& fit : seed.fits) EXPECT_EQ(fit.time_s, 1.0) << fit.estimator;
   }
 }
 

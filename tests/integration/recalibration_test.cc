@@ -172,7 +172,8 @@ TEST_F(Recalibration, TheJobsEndIsTheRequestsEnd) {
   get.set_name(done.calibration());
   const auto calibration = NewClient().GetCalibration(get);
   ASSERT_THAT(calibration, IsOk());
-  EXPECT_EQ(calibration->options().split(), "even-odd") << "as the active calibration's";
+  // The active calibration's even-odd would identify from half of a request's few poses.
+  EXPECT_EQ(calibration->options().split(), "random:1:0.75");
 }
 
 // Would catch a request that is lost with a job that failed, or a second try that isn't possible.

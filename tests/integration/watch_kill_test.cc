@@ -10,6 +10,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/time/clock.h"
+#include "client/client.h"
 #include "gtest/gtest.h"
 #include "tests/integration/effects.h"
 #include "tests/integration/recorder.h"
@@ -135,6 +136,20 @@ void ReadAtOnce(const std::string& address, const WatchPosition& begin) {
   for (std::thread& reader : readers) reader.join();
 }
 
+// Streams are opened one after another in the server.
+bool WaitForWatchers(const std::string& address, int64_t count) {
+  const auto client = client::Client::Connect(address);
+  const absl::Time late = absl::Now() + absl::Seconds(30);
+  for (; client.ok() && absl::Now() < late; absl::SleepFor(absl::Milliseconds(20))) {
+    const auto status = client->GetServerStatus({});
+    if (status.ok() && status->watchers() >= count) return true;
+  }
+  return false;
+}
+
+// The server gives up a reader who takes nothing after 40 s: who waited for one would take longer.
+constexpr absl::Duration kNoWaiting = absl::Seconds(20);
+
 // Would catch a server that queues for those who don't read, or lets the others wait for them.
 TEST_F(WatchKillTest, StalledReadersCostLittle) {
   const auto process = Start();
@@ -147,6 +162,7 @@ TEST_F(WatchKillTest, StalledReadersCostLittle) {
   const int64_t before = process->ResidentBytes();
   std::vector<std::unique_ptr<Stalled>> stalled;
   for (int i = 0; i < 200; ++i) stalled.push_back(std::make_unique<Stalled>(address, begin));
+  ASSERT_TRUE(WaitForWatchers(address, 200));
   // Whoever reads hears everything, while the others hold on to their connections.
   const absl::Time began = absl::Now();
   std::thread writer([&] {
@@ -157,6 +173,7 @@ TEST_F(WatchKillTest, StalledReadersCostLittle) {
   writer.join();
   const absl::Duration took = absl::Now() - began;
   EXPECT_EQ(heard.size(), 600u + 300 + 1);
+  EXPECT_LT(took, kNoWaiting);
   const int64_t cost = process->ResidentBytes() - before;
   EXPECT_LT(cost, 32 << 20);
   std::cout << "200 stalled watchers: " << cost / 1024 << " KiB; a reader beside them heard "

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <condition_variable>
+#include <functional>
+#include <future>
 #include <mutex>
+#include <thread>
 
 #include "server/scheduled_tasks.h"
 #include "server/store/events.h"
@@ -51,8 +54,8 @@ TEST(SchedulerTest, RunsEachTaskOnceARound) {
   Counted first, second;
   std::mutex mutex;
   std::vector<std::string> warnings;
-  Scheduler scheduler({{.what = "first", .run = [&] { return first.Add(); }},
-                       {.what = "second", .run = [&] { return second.Add(); }}},
+  Scheduler scheduler({{.what = "first", .run = [&](const auto&) { return first.Add(); }},
+                       {.what = "second", .run = [&](const auto&) { return second.Add(); }}},
                       absl::Minutes(1), clock, [&](const std::string& warning) {
                         const std::lock_guard lock(mutex);
                         warnings.push_back(warning);
@@ -66,6 +69,22 @@ TEST(SchedulerTest, RunsEachTaskOnceARound) {
   EXPECT_EQ(first.count(), 2);
   ASSERT_FALSE(warnings.empty());
   EXPECT_EQ(warnings.front(), "first: INTERNAL: out of luck");
+}
+
+// Would catch a stop that a long task isn't told of: this one would never end.
+TEST(SchedulerTest, ATaskIsToldOfTheStop) {
+  store::FakeClock clock;
+  std::promise<void> began;
+  const auto run = [&](const std::function<bool()>& is_stopping) {
+    began.set_value();
+    while (!is_stopping()) std::this_thread::yield();
+    return absl::OkStatus();
+  };
+  Scheduler scheduler({{.what = "long", .run = run}}, absl::Minutes(1), clock,
+                      [](const std::string&) {});
+  scheduler.Start();
+  began.get_future().wait();
+  scheduler.Stop();
 }
 
 class ScheduledTasksTest : public ::testing::Test {

@@ -55,6 +55,14 @@ TEST_F(Open, AllFaultsOfTheOptionsAtOnce) {
   EXPECT_EQ(FaultFields(status), (std::vector<std::string>{"path", "readers", "max_group"}));
 }
 
+// Catches a database that everybody on the machine can read.
+TEST_F(Open, ANewDatabaseIsItsOwnersAlone) {
+  ASSERT_TRUE(Store::Open({.path = path_}).ok());
+  struct stat status;
+  ASSERT_EQ(stat(path_.c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777, S_IRUSR | S_IWUSR);
+}
+
 // Catches data that don't survive an orderly end, an epoch that changes, and files left by one.
 TEST_F(Open, WhatWasWrittenIsThereAgain) {
   std::string epoch;
@@ -103,9 +111,10 @@ TEST_F(Open, AFolderInPlaceOfAFile) {
 
 TEST_F(Open, ADatabaseOfANewerVersion) {
   ASSERT_TRUE(Store::Open({.path = path_}).ok());
-  Sqlite(path_,
-         "INSERT INTO migrations VALUES (1000, 'future', 'x', 1000, '2030-01-01T00:00:00Z'); PRAGMA "
-         "user_version = 1000");
+  Sqlite(
+      path_,
+      "INSERT INTO migrations VALUES (1000, 'future', 'x', 1000, '2030-01-01T00:00:00Z'); PRAGMA "
+      "user_version = 1000");
   ExpectRefused("version 1000");
 }
 

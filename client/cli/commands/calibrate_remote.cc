@@ -91,8 +91,10 @@ absl::Status CalibrateAndDeliver(const Invocation& invocation, const CalibrateOp
   const std::string name = ShortName(calibration.name());
   if (!invocation.json) invocation.console.out << "Calibration " << name << "\n";
   return Deliver(invocation, calibration, std::move(output),
-                 absl::StrCat("truepose compensate TARGETS.csv --calibration ", name,
-                              " --output corrected.csv"));
+                 absl::StrCat("truepose calibration approve ", name,
+                              ", by somebody else than who measured; to try it: truepose "
+                              "compensate TARGETS.csv --calibration ",
+                              name, " --output corrected.csv"));
 }
 
 }  // namespace

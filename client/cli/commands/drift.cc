@@ -4,12 +4,12 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "client/cli/commands/commands.h"
+#include "client/cli/commands/listed.h"
 #include "client/cli/names.h"
 #include "client/cli/remote.h"
 #include "client/cli/reply.h"
 #include "client/cli/report.h"
 #include "client/cli/table.h"
-#include "client/pager.h"
 #include "core/base/status_macros.h"
 
 namespace truepose::cli {
@@ -85,22 +85,6 @@ std::string ChecksTable(const v1::ListDriftChecksResponse& list) {
   return table.Text();
 }
 
-absl::Status List(const Invocation& invocation, const std::string& robot) {
-  return WithServer(invocation, kRobotHint, [&](const client::Client& client) -> absl::Status {
-    v1::ListDriftChecksRequest first;
-    first.set_parent(RobotName(robot));
-    v1::ListDriftChecksResponse all;
-    TRUEPOSE_RETURN_IF_ERROR(client::ForEachPage(
-        first, [&](const auto& request) { return client.ListDriftChecks(request); },
-        [&](const v1::ListDriftChecksResponse& page) {
-          all.MergeFrom(page);
-          return absl::OkStatus();
-        }));
-    all.clear_next_page_token();
-    return Reply(invocation, all, [&] { return ChecksTable(all); });
-  });
-}
-
 }  // namespace
 
 void AddDrift(const Command& root) {
@@ -115,12 +99,14 @@ void AddDrift(const Command& root) {
       .Run(Command::Reach::kRemote, [robot, session](const Invocation& invocation) {
         return RunCheck(invocation, *robot, *session);
       });
-  const auto of = std::make_shared<std::string>();
-  group.Add("list", "List the checks, oldest first")
-      .Option("--robot", "NAME", of.get(), "Only of this robot")
-      .Footer("Examples:\n  truepose drift list\n  truepose drift list --robot ur10 --json")
-      .Run(Command::Reach::kRemote,
-           [of](const Invocation& invocation) { return List(invocation, *of); });
+  const auto listed = std::make_shared<ListOptions>();
+  const Command list = group.Add("list", "List the checks, oldest first");
+  AddListOptions(list, {.robot = true, .deleted = false, .example = "changed = true"},
+                 listed.get());
+  list.Footer("Examples:\n  truepose drift list\n  truepose drift list --robot ur10 --json")
+      .Run(Command::Reach::kRemote, [listed](const Invocation& invocation) {
+        return ReplyAllPages(invocation, *listed, &client::Client::ListDriftChecks, ChecksTable);
+      });
 }
 
 }  // namespace truepose::cli

@@ -6,12 +6,12 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "client/cli/commands/commands.h"
+#include "client/cli/commands/listed.h"
 #include "client/cli/names.h"
 #include "client/cli/outcome.h"
 #include "client/cli/remote.h"
 #include "client/cli/reply.h"
 #include "client/cli/table.h"
-#include "client/pager.h"
 #include "core/base/status_macros.h"
 
 namespace truepose::cli {
@@ -28,7 +28,7 @@ struct Settings {
   std::string robot, name = "default", pose_set;
   double interval_days = 0.0, temperature_step_k = 0.0, expire_days = 0.0;
   std::vector<std::string> events;
-  bool on_failed_check = false;
+  bool on_failed_check = false, dry_run = false;
   int poses = 0;
 };
 
@@ -55,7 +55,18 @@ absl::Status AddEvents(const std::vector<std::string>& words, Policy& policy) {
   return absl::OkStatus();
 }
 
+// A policy that never asks would replace one that does without a word.
+absl::Status CheckAsks(const Settings& settings) {
+  const bool asks = settings.interval_days != 0.0 || settings.temperature_step_k != 0.0 ||
+                    !settings.events.empty() || settings.on_failed_check;
+  if (asks) return absl::OkStatus();
+  return UsageError(
+      "found no cause, expected --interval-days, --temperature-step, --event or "
+      "--on-failed-check; `truepose policy delete ROBOT` ends a policy");
+}
+
 absl::StatusOr<Policy> PolicyFrom(const Settings& settings) {
+  TRUEPOSE_RETURN_IF_ERROR(CheckAsks(settings));
   Policy policy;
   policy.set_name(PolicyName(settings.robot, settings.name));
   if (settings.interval_days != 0.0)
@@ -116,13 +127,16 @@ absl::StatusOr<Policy> Put(const client::Client& client, const Settings& setting
   v1::CreateRecalibrationPolicyRequest create;
   create.set_parent(RobotName(settings.robot));
   create.set_recalibration_policy_id(settings.name);
+  create.set_validate_only(settings.dry_run);
   *create.mutable_recalibration_policy() = policy;
   absl::StatusOr<Policy> made = client.CreateRecalibrationPolicy(create);
   if (!absl::IsAlreadyExists(made.status())) return made;
   v1::UndeleteRecalibrationPolicyRequest undelete;
   undelete.set_name(policy.name());
+  undelete.set_validate_only(settings.dry_run);
   TRUEPOSE_RETURN_IF_ERROR(client.UndeleteRecalibrationPolicy(undelete).status());
   v1::UpdateRecalibrationPolicyRequest update;
+  update.set_validate_only(settings.dry_run);
   *update.mutable_recalibration_policy() = policy;
   return client.UpdateRecalibrationPolicy(update);
 }
@@ -132,22 +146,6 @@ absl::Status Set(const Invocation& invocation, const Settings& settings) {
   return WithServer(invocation, kRobotHint, [&](const client::Client& client) -> absl::Status {
     TRUEPOSE_ASSIGN_OR_RETURN(const Policy stored, Put(client, settings, policy));
     return Reply(invocation, stored, [&] { return OneText(stored); });
-  });
-}
-
-absl::Status List(const Invocation& invocation, const std::string& robot) {
-  return WithServer(invocation, kRobotHint, [&](const client::Client& client) -> absl::Status {
-    v1::ListRecalibrationPoliciesRequest first;
-    first.set_parent(RobotName(robot));
-    v1::ListRecalibrationPoliciesResponse all;
-    TRUEPOSE_RETURN_IF_ERROR(client::ForEachPage(
-        first, [&](const auto& request) { return client.ListRecalibrationPolicies(request); },
-        [&](const v1::ListRecalibrationPoliciesResponse& page) {
-          all.MergeFrom(page);
-          return absl::OkStatus();
-        }));
-    all.clear_next_page_token();
-    return Reply(invocation, all, [&] { return PoliciesTable(all); });
   });
 }
 
@@ -173,6 +171,7 @@ void AddSet(const Command& group) {
               "A drift check beyond the robot's limit")
       .Option("--expire-days", "DAYS", &settings->expire_days,
               "After which a request that nobody has finished expires; default: 7")
+      .Option("--dry-run", "", &settings->dry_run, "Only check it; nothing is stored")
       .Option("--pose-set", "NAME", &settings->pose_set,
               "Poses to measure; default: those of the active calibration, thinned")
       .Option("--poses", "N", &settings->poses, "How many poses a thinned set has; default: 20")
@@ -189,12 +188,15 @@ void AddPolicy(const Command& root) {
   const Command group = root.Add("policy", "When the server asks for a recalibration by itself");
   group.Footer("Example:\n  truepose policy list --robot ur10");
   AddSet(group);
-  const auto robot = std::make_shared<std::string>();
-  group.Add("list", "List the policies")
-      .Option("--robot", "NAME", robot.get(), "Only of this robot")
-      .Footer("Examples:\n  truepose policy list\n  truepose policy list --robot ur10 --json")
-      .Run(Command::Reach::kRemote,
-           [robot](const Invocation& invocation) { return List(invocation, *robot); });
+  const auto listed = std::make_shared<ListOptions>();
+  const Command list = group.Add("list", "List the policies");
+  AddListOptions(list, {.robot = true, .deleted = true, .example = "on_failed_check = true"},
+                 listed.get());
+  list.Footer("Examples:\n  truepose policy list\n  truepose policy list --robot ur10 --json")
+      .Run(Command::Reach::kRemote, [listed](const Invocation& invocation) {
+        return ReplyAllPages(invocation, *listed, &client::Client::ListRecalibrationPolicies,
+                             PoliciesTable);
+      });
   const auto settings = std::make_shared<Settings>();
   group.Add("delete", "Delete a policy; `set` brings it back")
       .Required("ROBOT", "", &settings->robot, "Such as ur10")

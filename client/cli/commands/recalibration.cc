@@ -6,12 +6,12 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/strip.h"
 #include "client/cli/commands/commands.h"
+#include "client/cli/commands/listed.h"
 #include "client/cli/names.h"
 #include "client/cli/remote.h"
 #include "client/cli/reply.h"
 #include "client/cli/report.h"
 #include "client/cli/table.h"
-#include "client/pager.h"
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
 
@@ -81,25 +81,13 @@ std::string RequestText(const Request& request) {
   return absl::StrCat(text, NextText(request));
 }
 
-absl::StatusOr<v1::ListRecalibrationRequestsResponse> AllOf(const client::Client& client,
-                                                            const std::string& robot) {
-  v1::ListRecalibrationRequestsRequest first;
-  first.set_parent(RobotName(robot));
-  v1::ListRecalibrationRequestsResponse all;
-  TRUEPOSE_RETURN_IF_ERROR(client::ForEachPage(
-      first, [&](const auto& request) { return client.ListRecalibrationRequests(request); },
-      [&](const v1::ListRecalibrationRequestsResponse& page) {
-        all.MergeFrom(page);
-        return absl::OkStatus();
-      }));
-  all.clear_next_page_token();
-  return all;
-}
-
 // The name of the request that is meant.
 absl::StatusOr<std::string> Meant(const client::Client& client, const std::string& typed) {
   if (absl::StrContains(typed, "/recalibrationRequests/")) return typed;
-  TRUEPOSE_ASSIGN_OR_RETURN(const auto all, AllOf(client, typed));
+  ListOptions of_robot;
+  of_robot.robot = typed;
+  TRUEPOSE_ASSIGN_OR_RETURN(const auto all,
+                            AllPages(client, of_robot, &client::Client::ListRecalibrationRequests));
   for (const Request& request : all.recalibration_requests())
     if (IsOpen(request)) return request.name();
   return absl::NotFoundError(absl::StrCat(RobotName(typed), " has no open request"));
@@ -122,21 +110,16 @@ std::string RequestsTable(const v1::ListRecalibrationRequestsResponse& list) {
   return table.Text();
 }
 
-absl::Status List(const Invocation& invocation, const std::string& robot) {
-  return WithServer(invocation, kRobotHint, [&](const client::Client& client) -> absl::Status {
-    TRUEPOSE_ASSIGN_OR_RETURN(const auto all, AllOf(client, robot));
-    return Reply(invocation, all, [&] { return RequestsTable(all); });
-  });
-}
-
 struct Asked {
   std::string robot, reason, calibrate, pose_set;
+  bool dry_run = false;
 };
 
 absl::Status Ask(const Invocation& invocation, const Asked& asked) {
   v1::CreateRecalibrationRequestRequest request;
   request.set_parent(RobotName(asked.robot));
   request.set_recalibration_request_id(RandomUuid());
+  request.set_validate_only(asked.dry_run);
   Request& content = *request.mutable_recalibration_request();
   content.set_reason(asked.reason);
   content.set_calibrate(asked.calibrate);
@@ -169,6 +152,7 @@ void AddRequest(const Command& group) {
       .Option("--reason", "TEXT", &asked->reason, "Why, for those who measure")
       .Option("--calibrate", "PART", &asked->calibrate,
               "all, internal, external, or names of parameters with commas; default: all")
+      .Option("--dry-run", "", &asked->dry_run, "Only check it; nothing is raised")
       .Option("--pose-set", "NAME", &asked->pose_set,
               "Poses to measure; default: those of the active calibration, thinned")
       .Footer(
@@ -213,12 +197,18 @@ void AddMeasuring(const Command& group) {
 
 void AddCalibrateFor(const Command& group) {
   const auto name = std::make_shared<std::string>();
+  const auto split = std::make_shared<std::string>();
   group.Add("calibrate", "Calibrate from the sealed session of a request")
       .Required("ROBOT", "", name.get(), kWhich)
-      .Footer("Example:\n  truepose recalibration calibrate ur10")
-      .Run(Command::Reach::kRemote, [name](const Invocation& invocation) {
-        return Step(invocation, *name, v1::CalibrateForRequestRequest(),
-                    &client::Client::CalibrateForRequest);
+      .Option("--split", "RULE", split.get(),
+              "Which readings identify, as of `truepose calibrate`; default: random:1:0.75")
+      .Footer(
+          "Examples:\n  truepose recalibration calibrate ur10\n"
+          "  truepose recalibration calibrate ur10 --split even-odd")
+      .Run(Command::Reach::kRemote, [name, split](const Invocation& invocation) {
+        v1::CalibrateForRequestRequest request;
+        request.set_split(*split);
+        return Step(invocation, *name, request, &client::Client::CalibrateForRequest);
       });
 }
 
@@ -242,14 +232,17 @@ void AddRecalibration(const Command& root) {
   const Command group = root.Add("recalibration", "Requests to recalibrate a robot");
   group.Footer("Example:\n  truepose recalibration list --robot ur10");
   AddRequest(group);
-  const auto robot = std::make_shared<std::string>();
-  group.Add("list", "List the requests, oldest first")
-      .Option("--robot", "NAME", robot.get(), "Only of this robot")
-      .Footer(
+  const auto listed = std::make_shared<ListOptions>();
+  const Command list = group.Add("list", "List the requests, oldest first");
+  AddListOptions(list, {.robot = true, .deleted = false, .example = "state = \"REQUEST_PENDING\""},
+                 listed.get());
+  list.Footer(
           "Examples:\n  truepose recalibration list\n"
           "  truepose recalibration list --robot ur10 --json")
-      .Run(Command::Reach::kRemote,
-           [robot](const Invocation& invocation) { return List(invocation, *robot); });
+      .Run(Command::Reach::kRemote, [listed](const Invocation& invocation) {
+        return ReplyAllPages(invocation, *listed, &client::Client::ListRecalibrationRequests,
+                             RequestsTable);
+      });
   AddAcknowledge(group);
   AddMeasuring(group);
   AddCalibrateFor(group);

@@ -3,7 +3,9 @@
 #include <memory>
 #include <numbers>
 
+#include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_replace.h"
 #include "client/cli/commands/commands.h"
 #include "client/cli/commands/list_options.h"
 #include "client/cli/commands/resource.h"
@@ -94,12 +96,14 @@ std::string RobotsTable(const v1::ListRobotsResponse& list) {
                {"serial", Align::kLeft},
                {"joints"},
                {"nominal", Align::kLeft},
+               {"active", Align::kLeft},
                {"added", Align::kLeft}});
   for (const v1::Robot& robot : list.robots()) {
     const v1::Nominal& nominal = robot.nominal_revision().nominal();
     table.Add({ShortName(robot.name()), KindText(nominal.kind()), MakeText(nominal),
                nominal.serial(), absl::StrCat(nominal.joints_size()),
-               robot.nominal_revision().name(), TimeText(robot.create_time())});
+               robot.nominal_revision().name(), ShortName(robot.active_calibration()),
+               TimeText(robot.create_time())});
   }
   return table.Text();
 }
@@ -153,6 +157,27 @@ std::string ToolsTable(const v1::Nominal& nominal) {
   return table.empty() ? "" : table.Text("  ");
 }
 
+// "two person", "automatic within limits"
+std::string PolicyText(v1::ReleasePolicy policy) {
+  if (policy == v1::RELEASE_POLICY_UNSPECIFIED) policy = v1::TWO_PERSON;
+  return absl::AsciiStrToLower(absl::StrReplaceAll(v1::ReleasePolicy_Name(policy), {{"_", " "}}));
+}
+
+void AppendLimit(const char* what, double limit_mm, std::string* text) {
+  if (limit_mm > 0.0) absl::StrAppend(text, ", ", what, " ", Fixed(limit_mm, 3), " mm");
+}
+
+std::string ReleaseText(const v1::Robot& robot) {
+  const std::string& active = robot.active_calibration();
+  std::string text = absl::StrCat("Active ", active.empty() ? "none" : ShortName(active),
+                                  "; release ", PolicyText(robot.release_policy()));
+  AppendLimit("control RMS at most", robot.limits().control_rms_mm(), &text);
+  AppendLimit("change at most", robot.limits().change_mm(), &text);
+  AppendLimit("recalibration asked for from a check's RMS of", robot.limits().drift_rms_mm(),
+              &text);
+  return absl::StrCat(text, "\n");
+}
+
 std::string RobotText(const v1::Robot& robot) {
   const v1::NominalRevision& revision = robot.nominal_revision();
   const v1::Nominal& nominal = revision.nominal();
@@ -162,7 +187,7 @@ std::string RobotText(const v1::Robot& robot) {
   if (!make.empty()) absl::StrAppend(&text, ", ", make);
   if (!nominal.serial().empty()) absl::StrAppend(&text, ", serial ", nominal.serial());
   absl::StrAppend(&text, "\nNominal ", revision.name(), ", SHA-256 ", revision.digest(), "\n");
-  return absl::StrCat(text, JointsTable(nominal), ToolsTable(nominal));
+  return absl::StrCat(text, ReleaseText(robot), JointsTable(nominal), ToolsTable(nominal));
 }
 
 absl::Status Show(const Invocation& invocation, const std::string& name) {

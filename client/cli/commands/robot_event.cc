@@ -6,13 +6,13 @@
 #include "absl/strings/str_cat.h"
 #include "absl/time/time.h"
 #include "client/cli/commands/commands.h"
+#include "client/cli/commands/listed.h"
 #include "client/cli/names.h"
 #include "client/cli/outcome.h"
 #include "client/cli/remote.h"
 #include "client/cli/reply.h"
 #include "client/cli/report.h"
 #include "client/cli/table.h"
-#include "client/pager.h"
 #include "core/base/status_macros.h"
 
 namespace truepose::cli {
@@ -23,6 +23,7 @@ using Event = v1::RobotEvent;
 struct Told {
   std::string robot, kind, time, description, temperature_c;
   int joint = 0;
+  bool dry_run = false;
 };
 
 absl::Status SetKind(const std::string& word, Event& event) {
@@ -97,26 +98,11 @@ absl::Status Add(const Invocation& invocation, const Told& told) {
   v1::CreateRobotEventRequest request;
   request.set_parent(RobotName(told.robot));
   request.set_robot_event_id(RandomUuid());
+  request.set_validate_only(told.dry_run);
   TRUEPOSE_ASSIGN_OR_RETURN(*request.mutable_robot_event(), EventFrom(told));
   return WithServer(invocation, kRobotHint, [&](const client::Client& client) -> absl::Status {
     TRUEPOSE_ASSIGN_OR_RETURN(const Event event, client.CreateRobotEvent(request));
     return Reply(invocation, event, [&] { return AddedText(event); });
-  });
-}
-
-absl::Status List(const Invocation& invocation, const std::string& robot) {
-  return WithServer(invocation, kRobotHint, [&](const client::Client& client) -> absl::Status {
-    v1::ListRobotEventsRequest first;
-    first.set_parent(RobotName(robot));
-    v1::ListRobotEventsResponse all;
-    TRUEPOSE_RETURN_IF_ERROR(client::ForEachPage(
-        first, [&](const auto& request) { return client.ListRobotEvents(request); },
-        [&](const v1::ListRobotEventsResponse& page) {
-          all.MergeFrom(page);
-          return absl::OkStatus();
-        }));
-    all.clear_next_page_token();
-    return Reply(invocation, all, [&] { return EventsTable(all); });
   });
 }
 
@@ -132,6 +118,7 @@ void AddRobotEvent(const Command& root) {
       .Option("--joint", "N", &told->joint, "Of a motor change, from 1")
       .Option("--temperature", "C", &told->temperature_c, "At the robot, degrees Celsius")
       .Option("--time", "TIME", &told->time, "When it happened; default: now")
+      .Option("--dry-run", "", &told->dry_run, "Only check it; nothing is stored or raised")
       .Option("--description", "TEXT", &told->description, "For those who read it later")
       .Footer(
           "Examples:\n  truepose robot-event add ur10 collision --description 'the fixture'\n"
@@ -139,14 +126,16 @@ void AddRobotEvent(const Command& root) {
           "  truepose robot-event add ur10 temperature --temperature 27.5")
       .Run(Command::Reach::kRemote,
            [told](const Invocation& invocation) { return Add(invocation, *told); });
-  const auto robot = std::make_shared<std::string>();
-  group.Add("list", "List the events, oldest first")
-      .Option("--robot", "NAME", robot.get(), "Only of this robot")
-      .Footer(
+  const auto listed = std::make_shared<ListOptions>();
+  const Command list = group.Add("list", "List the events, oldest first");
+  AddListOptions(list, {.robot = true, .deleted = false, .example = "kind = \"COLLISION\""},
+                 listed.get());
+  list.Footer(
           "Examples:\n  truepose robot-event list\n"
           "  truepose robot-event list --robot ur10 --json")
-      .Run(Command::Reach::kRemote,
-           [robot](const Invocation& invocation) { return List(invocation, *robot); });
+      .Run(Command::Reach::kRemote, [listed](const Invocation& invocation) {
+        return ReplyAllPages(invocation, *listed, &client::Client::ListRobotEvents, EventsTable);
+      });
 }
 
 }  // namespace truepose::cli

@@ -53,6 +53,23 @@ absl::Status List(const Invocation& invocation, const ListOptions& options) {
   });
 }
 
+// How it was measured, as far as that is known.
+std::string MeasuredText(const v1::Session& session) {
+  std::string text;
+  const auto add = [&](const char* title, const std::string& value) {
+    if (!value.empty()) absl::StrAppend(&text, "  ", title, value, "\n");
+  };
+  add("instrument ", ShortName(session.instrument()));
+  add("placement  ", session.placement());
+  add("fixture    ", ShortName(session.fixture()));
+  add("operator   ", session.operator_());
+  add("joints     ", session.joint_source());
+  add("at         ",
+      session.has_temperature_c() ? absl::StrCat(Fixed(session.temperature_c(), 1), " deg C") : "");
+  add("load       ", session.has_load_kg() ? absl::StrCat(session.load_kg(), " kg") : "");
+  return text;
+}
+
 std::string SessionText(const v1::Session& session) {
   std::string text = absl::StrCat(
       "Session ", ShortName(session.name()), " (", session.display_name(), ")\n  robot    ",
@@ -66,7 +83,7 @@ std::string SessionText(const v1::Session& session) {
   if (!session.extra_columns().empty()) {
     absl::StrAppend(&text, "  also     ", absl::StrJoin(session.extra_columns(), ", "), "\n");
   }
-  return text;
+  return absl::StrCat(text, MeasuredText(session));
 }
 
 absl::Status Show(const Invocation& invocation, const std::string& name) {

@@ -27,7 +27,7 @@ std::string PlantTime(const v1::ServerStatus& status) {
 
 std::string CallerText(const v1::ServerStatus& status) {
   const std::string kind = absl::AsciiStrToLower(v1::PrincipalKind_Name(status.principal_kind()));
-  return absl::StrCat(status.principal(), ", a ", kind);
+  return absl::StrCat(status.principal(), ", a ", kind, status.admin() ? " and admin" : "");
 }
 
 std::string StatusText(const v1::ServerStatus& status, const std::string& address,

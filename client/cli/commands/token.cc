@@ -78,12 +78,14 @@ std::string TokensTable(const v1::ListTokensResponse& list) {
                {"kind", Align::kLeft},
                {"state", Align::kLeft},
                {"created", Align::kLeft},
-               {"by", Align::kLeft}});
+               {"by", Align::kLeft},
+               {"last used", Align::kLeft}});
   for (const v1::Token& token : list.tokens()) {
     const std::string kind = absl::AsciiStrToLower(v1::PrincipalKind_Name(token.kind()));
     table.Add({ShortName(token.name()), token.principal(),
                token.admin() ? absl::StrCat(kind, ", admin") : kind, StateText(token),
-               TimeText(token.create_time()), token.created_by()});
+               TimeText(token.create_time()), token.created_by(),
+               token.has_last_use_time() ? TimeText(token.last_use_time()) : "never"});
   }
   return table.Text();
 }

@@ -125,6 +125,7 @@ class Printer {
 
   // false: no more is wanted.
   bool Take(const v1::WatchResponse& response) {
+    is_away_ = false;
     if (response.revision() > 0) place_ = absl::StrCat(response.epoch(), ":", response.revision());
     if (invocation_.json) {
       const auto json = ToJson(response);
@@ -138,6 +139,12 @@ class Printer {
     return left_ > 0;
   }
 
+  // Tells of the first of several attempts only.
+  void TellAway(const absl::Status& why) {
+    if (!is_away_) Warn(invocation_.console, absl::StrCat("connecting again: ", why.message()));
+    is_away_ = true;
+  }
+
   // What --from takes to go on; "" before the snapshot is complete.
   const std::string& place() const { return place_; }
 
@@ -149,6 +156,7 @@ class Printer {
   const Invocation& invocation_;
   int left_;  // 0 = without end
   std::string place_;
+  bool is_away_ = false;
 };
 
 absl::Status Watch(const Invocation& invocation, const Options& options) {
@@ -159,9 +167,7 @@ absl::Status Watch(const Invocation& invocation, const Options& options) {
     Printer printer(invocation, options.count);
     client::FollowOptions follow;
     follow.is_cancelled = [&] { return interrupt.interrupted(); };
-    follow.on_reconnect = [&](const absl::Status& why) {
-      Warn(invocation.console, absl::StrCat("connecting again: ", why.message()));
-    };
+    follow.on_reconnect = [&](const absl::Status& why) { printer.TellAway(why); };
     const absl::Status status = client::FollowWatch(
         client, request, [&](const auto& response) { return printer.Take(response); }, follow);
     if (!printer.place().empty() && (status.ok() || absl::IsCancelled(status))) {

@@ -92,6 +92,19 @@ TEST(RobotFaults, JointCount) {
   EXPECT_EQ(faults[0].field, "geometry");
 }
 
+// Would catch a look at the joint behind the last one: here it lies in memory that held a prismatic
+// joint, which would be a second fault.
+TEST(RobotFaults, AMotionOfAJointBehindTheLast) {
+  std::vector<Joint> joints = {{"a"}, {"b", JointType::kPrismatic}};
+  joints.pop_back();
+  const Chain chain = {Moving(Motion::kRotation, Axis::kZ, 0),
+                       Moving(Motion::kRotation, Axis::kX, 1)};
+  const auto faults =
+      FaultsOf(Robot::Create(std::move(joints), chain, JointMap::Identity(1)).status());
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults[0].field, "geometry");
+}
+
 TEST(RobotFaults, WrongKindOfMotion) {
   const auto faults = FaultsWith({{"a", JointType::kPrismatic}},
                                  {Moving(Motion::kRotation, Axis::kZ, 0)}, JointMap::Identity(1));

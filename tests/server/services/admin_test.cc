@@ -162,6 +162,31 @@ TEST_F(AdminTest, ARevokedTokenIsOutAtOnce) {
   EXPECT_THAT(RevokeToken(AsAdmin(), request), HasCode(absl::StatusCode::kInvalidArgument));
 }
 
+// Would catch a server to which nobody can ever be added again.
+TEST_F(AdminTest, TheLastAdminStays) {
+  const auto first = Create(R"(principal: "ben" kind: PERSON admin: true)");
+  ASSERT_THAT(first, IsOk());
+  v1::RevokeTokenRequest request;
+  request.set_name(first->token().name());
+  EXPECT_THAT(RevokeToken(AsAdmin(), request), HasCode(absl::StatusCode::kFailedPrecondition));
+  EXPECT_THAT(Show(first->secret()), IsOk());
+  ASSERT_THAT(Create(R"(principal: "eva" kind: PERSON admin: true)"), IsOk());
+  EXPECT_THAT(RevokeToken(AsAdmin(), request), IsOk());
+  EXPECT_THAT(RevokeToken(AsAdmin(), request), IsOk()) << "a repeat";
+}
+
+// Would catch a use that is recorded and never told.
+TEST_F(AdminTest, TheListTellsOfTheLastUse) {
+  const auto made = Create(R"(principal: "ben" kind: PERSON)");
+  ASSERT_THAT(made, IsOk());
+  EXPECT_FALSE(ListTokens(AsAdmin(), {})->tokens(0).has_last_use_time());
+  ASSERT_THAT(store().Write([&](store::Transaction& transaction) {
+    return store::RecordTokenUse(transaction, made->token().name(), absl::FromUnixSeconds(7'000));
+  }),
+              IsOk());
+  EXPECT_EQ(ListTokens(AsAdmin(), {})->tokens(0).last_use_time().seconds(), 7'000);
+}
+
 TEST_F(AdminTest, TokensAreListedInPages) {
   for (const char* principal : {"a", "b", "c"})
     ASSERT_THAT(Create(absl::StrCat("kind: PERSON principal: '", principal, "'")), IsOk());

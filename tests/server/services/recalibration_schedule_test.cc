@@ -9,11 +9,12 @@ using testing::HasFields;
 using testing::IsOk;
 
 constexpr char kThirtyDays[] = "interval { seconds: 2592000 }";
+const IsStopping kNever = [] { return false; };
 
 class RecalibrationScheduleTest : public RecalibrationFixture {
  protected:
   int Raise() {
-    const auto raised = RaiseDueRequests(store());
+    const auto raised = RaiseDueRequests(store(), kNever);
     EXPECT_THAT(raised, IsOk());
     return raised.value_or(-1);
   }
@@ -74,23 +75,31 @@ TEST_F(RecalibrationScheduleTest, PoliciesOfManyRobots) {
   EXPECT_EQ(Raise(), 1);
 }
 
+// Would catch a stop of the server that waits until a long pass has raised everything.
+TEST_F(RecalibrationScheduleTest, APassEndsWhenTheServerStops) {
+  SetPolicy(kThirtyDays);
+  clock_.Advance(absl::Hours(24 * 31));
+  EXPECT_EQ(*RaiseDueRequests(store(), [] { return true; }), 0);
+  EXPECT_EQ(Raise(), 1) << "the next pass does what was left";
+}
+
 // Would catch a request that stays open for ever, or that expires before its time or twice.
 TEST_F(RecalibrationScheduleTest, RequestsExpire) {
   SetPolicy("expire_after { seconds: 3600 }");
   ASSERT_THAT(Ask(kRequest1), IsOk());
   ASSERT_THAT(Acknowledge(kRequest1), IsOk());
   clock_.Advance(absl::Minutes(59));
-  EXPECT_EQ(*ExpireRequests(store()), 0);
+  EXPECT_EQ(*ExpireRequests(store(), kNever), 0);
   clock_.Advance(absl::Minutes(1));
-  EXPECT_EQ(*ExpireRequests(store()), 1);
-  EXPECT_EQ(*ExpireRequests(store()), 0);
+  EXPECT_EQ(*ExpireRequests(store(), kNever), 1);
+  EXPECT_EQ(*ExpireRequests(store(), kNever), 0);
   const v1::RecalibrationRequest expired = Stored(kRequest1);
   EXPECT_EQ(expired.state(), v1::REQUEST_EXPIRED);
   EXPECT_EQ(expired.steps_size(), 3);
   EXPECT_THAT(Ask(kRequest2), IsOk());
   clock_.Advance(absl::Hours(2));
   EXPECT_THAT(Decline(kRequest2), IsOk());
-  EXPECT_EQ(*ExpireRequests(store()), 0) << "what has ended doesn't expire";
+  EXPECT_EQ(*ExpireRequests(store(), kNever), 0) << "what has ended doesn't expire";
 }
 
 }  // namespace

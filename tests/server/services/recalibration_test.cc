@@ -3,6 +3,7 @@
 #include "server/services/jobs.h"
 #include "server/services/recalibration_job.h"
 #include "server/services/recalibration_rules.h"
+#include "server/services/robots.h"
 #include "server/store/jobs.h"
 #include "tests/server/services/recalibration_testing.h"
 
@@ -111,6 +112,8 @@ TEST_F(RecalibrationTest, NamesEveryFaultOfARequest) {
                                  "recalibration_request.raised_by"}));
   EXPECT_THAT(Ask(kRequest1, "expire_time { seconds: 1 }"),
               HasFaultsAt(Fields{"recalibration_request.expire_time"}));
+  EXPECT_THAT(Ask(kRequest1, "calibrate: 'dq3, dq99'"),
+              HasFaultsAt(Fields{"recalibration_request.options.calibrate"}));
   EXPECT_THAT(Ask(kRequest1, "pose_set: 'robots/ur10/poseSets/none'"),
               HasCode(absl::StatusCode::kNotFound));
   EXPECT_TRUE(All<v1::RecalibrationRequest>().empty());
@@ -157,8 +160,8 @@ TEST_F(RecalibrationTest, AWrongStepSaysWhatIsPossible) {
   const auto refused = Calibrate(kRequest1);
   EXPECT_THAT(refused, HasCode(absl::StatusCode::kFailedPrecondition));
   EXPECT_THAT(std::string(refused.status().message()),
-              ::testing::AllOf(::testing::HasSubstr("REQUEST_PENDING"),
-                               ::testing::HasSubstr("REQUEST_ACKNOWLEDGED")));
+              ::testing::AllOf(::testing::HasSubstr("which is pending"),
+                               ::testing::HasSubstr("acknowledged")));
 }
 
 // Would catch a session of another robot, and a report of readings that is a step each time.
@@ -257,6 +260,20 @@ TEST_F(RecalibrationTest, APartStartsFromTheActiveCalibration) {
   EXPECT_EQ(options.calibrate(), "dq3");
   EXPECT_EQ(options.prior(), "calibration");
   EXPECT_EQ(options.prior_calibration().name(), "robots/ur10/calibrations/1");
+}
+
+// Would catch a part that is identified beside values which another nominal gives their meaning.
+TEST_F(RecalibrationTest, APartNeedsTheNominalOfTheActiveCalibration) {
+  ASSERT_THAT(Ask(kRequest1, "calibrate: 'dq3'"), IsOk());
+  ASSERT_THAT(Acknowledge(kRequest1), IsOk());
+  v1::CreateNominalRevisionRequest revision;
+  revision.set_parent(kRobot);
+  *revision.mutable_nominal() = testing::SixAxes("2");
+  ASSERT_THAT(CreateNominalRevision(call(), revision), IsOk());
+  AddSimulatedSession(kSession2, "ur10", testing::kCalibrationPoses);
+  ASSERT_THAT(Measure(kRequest1, kMeasured, 60), IsOk());
+  EXPECT_THAT(Calibrate(kRequest1), HasCode(absl::StatusCode::kFailedPrecondition));
+  EXPECT_EQ(Stored(kRequest1).state(), v1::REQUEST_MEASURING);
 }
 
 // Would catch reports that pile up, and one of a robot that nobody knows.

@@ -92,6 +92,37 @@ TEST_F(RobotEventsTest, OtherEventsRaiseNothing) {
   EXPECT_EQ(All<v1::RobotEvent>().size(), 3u);
 }
 
+// Would catch a joint that the robot does not have, and a clock that runs years ahead.
+TEST_F(RobotEventsTest, FaultsOfEvents) {
+  const int64_t ahead = absl::ToUnixSeconds(clock_.Now()) + 3'600;
+  EXPECT_THAT(
+      Report(1, absl::StrCat("kind: MOTOR_CHANGE joint: 7 event_time { seconds: ", ahead, "}")),
+      HasFaultsAt(Fields{"robot_event.event_time", "robot_event.joint"}));
+  EXPECT_THAT(Report(1, "kind: MOTOR_CHANGE joint: 6"), IsOk());
+}
+
+// Would catch a policy whose poses are another robot's, or were deleted, both at its making and
+// later.
+TEST_F(RobotEventsTest, APolicysPosesAreTheRobots) {
+  AddRobot("other");
+  v1::CreateRecalibrationPolicyRequest request;
+  request.set_parent(kRobot);
+  request.set_recalibration_policy_id("default");
+  v1::RecalibrationPolicy& content = *request.mutable_recalibration_policy();
+  content.set_pose_set(AddPoseSet("theirs", "robots/other"));
+  v1::RecalibrationPolicy policy;
+  EXPECT_THAT(CreateStandard(call(), request, policy),
+              HasFaultsAt(Fields{"recalibration_policy.pose_set"}));
+  content.set_pose_set(AddPoseSet("own"));
+  ASSERT_THAT(CreateStandard(call(), request, policy), IsOk());
+  v1::UpdateRecalibrationPolicyRequest update;
+  *update.mutable_recalibration_policy() = policy;
+  update.mutable_recalibration_policy()->set_pose_set("robots/ur10/poseSets/none");
+  update.mutable_update_mask()->add_paths("pose_set");
+  EXPECT_THAT(UpdateStandard(call(), update, policy),
+              HasFaultsAt(Fields{"recalibration_policy.pose_set"}));
+}
+
 // Would catch a policy that raises a request for each report of a temperature, or names a pose set
 // that is none.
 TEST_F(RobotEventsTest, FaultsOfPolicies) {

@@ -1,0 +1,35 @@
+// The way of almost every target of an arm with six joints: the corrected joints are milliradians
+// away, so Newton with one factored Jacobian contracts the error by about as much each step; the
+#pragma once
+
+#include "compensation/kinematics.h"
+
+namespace truepose::compensation {
+
+struct ChordOptions {
+  double position_tolerance_m = 1e-10;
+  double rotation_tolerance_rad = 1e-10;
+  double characteristic_length_m = 1;
+  // A step longer than this over the remainder it is to undo (lengths / characteristic length)
+  // gives up: something near a singularity for SolveLeast to look at.
+  double largest_gain = 100;
+};
+
+// Controller joints as moved by effects (`v`), and the chain's: start on entry, solution on
+// success.
+struct ChordState {
+  JointArray v{};
+  Motions motions;
+  int iterations = 0;
+  Twist remainder;
+};
+
+// Solves identified(joint_scale v + joint_offset) = desired for an arm of six joints. The Jacobian
+// is taken afresh only when an error is not ten times smaller than the one before.
+// @param state v and the motions of its chain joints.
+// @returns false when a step is longer than kLongestSmallStep (rad; m), the gain too large, or
+// eight steps do not do: then nothing in `state` is of use.
+bool SolveByChords(const Arm& arm, const Pose& desired, const ChordOptions& options,
+                   ChordState* state) noexcept;
+
+}  // namespace truepose::compensation

@@ -1,0 +1,234 @@
+#include "compensation/exact.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "compensation/chord.h"
+#include "compensation/effects.h"
+#include "compensation/inverse.h"
+#include "compensation/least_squares.h"
+#include "compensation/singularity.h"
+#include "compensation/valid.h"
+
+namespace truepose::compensation {
+namespace {
+
+// A step a tenth of what a place at the threshold could ask for is reason to look closer.
+double LargestGain(const ExactOptions& options) { return 0.1 / options.singular_threshold; }
+
+double LengthOf(const Arm& arm, const ExactOptions& options) {
+  return options.characteristic_length_m > 0 ? options.characteristic_length_m
+                                             : CharacteristicLength(arm.nominal);
+}
+
+// The first controller joint beyond its limits, or -1.
+int BeyondLimit(const Arm& arm, const double* q) {
+  for (int i = 0; i < arm.nominal.joints; ++i) {
+    if (!(q[i] >= arm.limits[i].lower && q[i] <= arm.limits[i].upper)) return i;
+  }
+  return -1;
+}
+
+// Corrects one target the slow way.
+class SlowWay {
+ public:
+  // @param q_nominal where the nominal flange is at the pose, or nearest to it.
+  SlowWay(const Arm& arm, const Pose& X_BF, const double* q_nominal, const ExactOptions& options)
+      : arm_(arm), options_(options), n_(arm.nominal.joints) {
+    std::copy_n(q_nominal, n_, q_nominal_.data());
+    task_ = TaskOf(arm, arm.identified, X_BF, options);
+    MovedJoints(arm, q_nominal, start_.data());
+  }
+
+  Correction Solve() {
+    LeastSquaresResult solved = SolveFrom(start_.data());
+    Correction result = CorrectionAt(solved);
+    result.joint = BeyondLimit(arm_, result.q.data());
+    const int first = result.joint;
+    for (int held = 0; result.joint >= 0 && held < n_; ++held) {
+      Hold(result.joint, &result.q);
+      JointArray v;
+      MovedJoints(arm_, result.q.data(), v.data());
+      solved = SolveFrom(v.data());
+      const int iterations = result.iterations;
+      result = CorrectionAt(solved);
+      result.iterations += iterations;
+      KeepHeld(&result.q);
+      result.joint = BeyondLimit(arm_, result.q.data());
+    }
+    Measure(&result);
+    Judge(solved, first, &result);
+    return result;
+  }
+
+ private:
+  LeastSquaresResult SolveFrom(const double* v) {
+    const LeastSquaresResult solved = SolveLeastSquares(task_, v);
+    const long free = n_ - std::count(task_.held.begin(), task_.held.begin() + n_, true);
+    return solved.reached && free > 6 ? DrawTowards(task_, start_.data(), solved) : solved;
+  }
+
+  Correction CorrectionAt(const LeastSquaresResult& solved) const {
+    Correction result;
+    result.iterations = solved.iterations;
+    if (!ReadingsOf(arm_, solved.v.data(), result.q.data())) result.q = q_nominal_;
+    return result;
+  }
+
+  // At its nearer limit from now on.
+  void Hold(int joint, JointArray* q) {
+    const JointLimits& limits = arm_.limits[joint];
+    limit_[joint] = (*q)[joint] < limits.lower ? limits.lower : limits.upper;
+    task_.held[joint] = true;
+    KeepHeld(q);
+  }
+
+  // A held joint's reading is its limit to the bit, which the way back from effects may miss.
+  void KeepHeld(JointArray* q) const {
+    for (int i = 0; i < n_; ++i) {
+      if (task_.held[i]) (*q)[i] = limit_[i];
+    }
+  }
+
+  void Measure(Correction* result) const {
+    const Pose X = IdentifiedFlange(arm_, result->q.data());
+    const Twist e = Remainder(task_.desired, X);
+    const Eigen::Vector3d& c = task_.point_F;
+    result->position_error_m = (e.head<3>() + task_.desired.R * c - X.R * c).norm();
+    result->rotation_error_rad = e.tail<3>().norm();
+    result->smallest_singular_value = SmallestSingularValue(arm_, result->q.data(), task_.length_m);
+  }
+
+  bool IsLargeForItsError(const Correction& result) const {
+    double largest = 0;
+    for (int i = 0; i < n_; ++i) {
+      const double unit = arm_.nominal.prismatic[i] ? task_.length_m : 1;
+      largest = std::max(largest, std::abs(result.q[i] - q_nominal_[i]) / unit);
+    }
+    const Twist e = Remainder(task_.desired, IdentifiedFlange(arm_, q_nominal_.data()));
+    return largest >
+           LargestGain(options_) * (e.head<3>().norm() / task_.length_m + e.tail<3>().norm());
+  }
+
+  void Judge(const LeastSquaresResult& solved, int first_beyond, Correction* result) const {
+    const bool reached = n_ < 6 ? solved.settled && first_beyond < 0
+                                : result->position_error_m <= options_.position_tolerance_m &&
+                                      result->rotation_error_rad <= options_.rotation_tolerance_rad;
+    const double nominal = SmallestSingularValue(arm_, q_nominal_.data(), task_.length_m);
+    const double nearest = std::min(nominal, result->smallest_singular_value);
+    if (reached) {
+      const bool far = nearest < options_.singular_threshold && IsLargeForItsError(*result);
+      result->outcome = far ? Outcome::kNearSingular : Outcome::kOk;
+    } else if (first_beyond >= 0) {
+      result->outcome = Outcome::kBeyondLimit;
+      result->joint = first_beyond;
+    } else {
+      result->outcome =
+          nominal < options_.singular_threshold ? Outcome::kNearSingular : Outcome::kUnreachable;
+    }
+  }
+
+  const Arm& arm_;
+  const ExactOptions& options_;
+  const int n_;
+  JointArray q_nominal_{}, start_{}, limit_{};
+  LeastSquaresTask task_;
+};
+
+// The fast way for six joints. @returns false when the slow one is to look at it.
+bool SolveFast(const Arm& arm, const Pose& X_BF, const ExactOptions& options, ChordState* state,
+               Correction* result) {
+  ChordOptions chords;
+  chords.position_tolerance_m = options.position_tolerance_m;
+  chords.rotation_tolerance_rad = options.rotation_tolerance_rad;
+  chords.characteristic_length_m = LengthOf(arm, options);
+  chords.largest_gain = LargestGain(options);
+  if (!SolveByChords(arm, X_BF, chords, state)) return false;
+  if (!ReadingsOf(arm, state->v.data(), result->q.data())) return false;
+  if (BeyondLimit(arm, result->q.data()) >= 0) return false;
+  result->outcome = Outcome::kOk;
+  result->iterations = state->iterations;
+  result->position_error_m = state->remainder.head<3>().norm();
+  result->rotation_error_rad = state->remainder.tail<3>().norm();
+  return true;
+}
+
+// v and motions of the identified chain at controller joints q; `motions` are those of the nominal
+// one, which are the same without effects.
+void StartAt(const Arm& arm, const double* q, const Motions& motions, ChordState* state) {
+  std::copy_n(q, 6, state->v.data());
+  state->motions = motions;
+  if (!HasEffects(arm)) return;
+  JointArray q_chain;
+  MovedJoints(arm, q, state->v.data());
+  ToChain(arm, state->v.data(), q_chain.data());
+  SetMotions(arm.identified, q_chain.data(), &state->motions);
+}
+
+}  // namespace
+
+LeastSquaresTask TaskOf(const Arm& arm, const JointChain& chain, const Pose& X_BF,
+                        const ExactOptions& options) noexcept {
+  LeastSquaresTask task;
+  task.arm = &arm;
+  task.chain = &chain;
+  task.desired = X_BF;
+  task.length_m = LengthOf(arm, options);
+  task.position_tolerance_m = options.position_tolerance_m;
+  task.rotation_tolerance_rad = options.rotation_tolerance_rad;
+  task.max_iterations = options.max_iterations;
+  if (arm.nominal.joints < 6) {
+    task.point_F = options.point_F;
+    task.weight = Eigen::Map<const Twist>(options.weight.data());
+  } else {
+    task.weight.head<3>().setConstant(1 / task.length_m);
+  }
+  return task;
+}
+
+Correction CorrectJoints(const Arm& arm, const double* q_controller,
+                         const ExactOptions& options) noexcept {
+  Correction result;
+  if (arm.measuring || !AreFinite(q_controller, arm.nominal.joints)) return result;
+  JointArray q_chain;
+  ToChain(arm, q_controller, q_chain.data());
+  Motions motions;
+  SetMotions(arm.nominal, q_chain.data(), &motions);
+  const Pose X_BF = Forward(arm.nominal, motions);
+  if (arm.nominal.joints == 6) {
+    ChordState state;
+    StartAt(arm, q_controller, motions, &state);
+    if (SolveFast(arm, X_BF, options, &state, &result)) return result;
+  }
+  return SlowWay(arm, X_BF, q_controller, options).Solve();
+}
+
+Correction CorrectPose(const Arm& arm, const Pose& X_BF, const double* q_seed_controller,
+                       const ExactOptions& options) noexcept {
+  if (arm.measuring || !AreFinite(q_seed_controller, arm.nominal.joints) || !IsPose(X_BF))
+    return {};
+  const Correction nominal = NearestBranch(arm, X_BF, q_seed_controller, InverseOptions{options});
+  const bool missed =
+      arm.nominal.joints < 6 && nominal.position_error_m > options.largest_position_miss_m;
+  Correction result = SlowWay(arm, X_BF, nominal.q.data(), options).Solve();
+  result.iterations += nominal.iterations;
+  if (nominal.outcome == Outcome::kBeyondLimit && result.outcome != Outcome::kOk) {
+    result.outcome = nominal.outcome;
+    result.joint = nominal.joint;
+  }
+  if (missed && result.outcome == Outcome::kOk) result.outcome = Outcome::kUnreachable;
+  return result;
+}
+
+Tip CorrectedTip(const Arm& arm, const double* q_controller, const Pose& X_FT,
+                 const Eigen::Vector3d& axis_T) noexcept {
+  Tip tip;
+  if (!AreFinite(q_controller, arm.nominal.joints) || !IsPose(X_FT) || !axis_T.allFinite())
+    return tip;
+  tip.outcome = Outcome::kOk;
+  tip.X_BT = IdentifiedFlange(arm, q_controller) * X_FT;
+  tip.axis_B = tip.X_BT.R * axis_T;
+  return tip;
+}
+
+}  // namespace truepose::compensation
