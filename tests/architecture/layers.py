@@ -50,7 +50,7 @@ ALLOWED = {
         "core", "compensation", "formats", "programs", "convert", "client", "proto", "grpc", "io", "cli11", "json",
         "openssl"),
     "client/agent": ("core/base", "compensation", "client", "proto", "io", "cli11", "json", "spdlog", "toml"),
-    "client/agent/sources": ("core/base", "formats", "client/agent", "proto", "io"),
+    "client/agent/sources": ("core/base", "formats", "client/agent", "proto", "io", "json"),
     # No part of the agent itself: a robot that is made up.
     "client/agent/simulated": ("core", "convert", "client/agent", "proto", "io"),
     "client": ("core/base", "proto", "grpc", "io", "openssl"),
