@@ -28,4 +28,11 @@ absl::StatusOr<ProgramCorrection> RemoteCorrection(const client::Client& client,
                                                    const v1::Nominal& nominal,
                                                    const std::string& calibration);
 
+// By a compensation table (`compensation/`), which needs nothing else.
+// @param nominal of the robot that the table has to be of; nullptr = whatever robot it is of.
+// @returns kInvalidArgument with a fault of `--table` for a file that is no whole table, or one of
+// another robot, or of a measuring one.
+absl::StatusOr<ProgramCorrection> TableCorrection(const std::string& path,
+                                                  const v1::Nominal* nominal);
+
 }  // namespace truepose::cli

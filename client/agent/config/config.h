@@ -17,6 +17,7 @@ struct RobotSettings {
 struct SourceSettings {
   std::string kind;                           // such as "csv"
   std::string robot;                          // robots/{robot}, one of the configuration
+  int joints = 0;                             // of that robot
   std::map<std::string, std::string> values;  // its other keys; numbers and true or false as text
   std::string place;                          // "agent.toml:17: source[0]", for faults
 };

@@ -74,7 +74,11 @@ void ReadSources(TomlTable& root, AgentConfig* config) {
     source.robot = kRobots + robot;
     source.place = table.Place("");
     bool known = robot.empty();
-    for (const RobotSettings& settings : config->robots) known |= settings.name == source.robot;
+    for (const RobotSettings& settings : config->robots) {
+      if (settings.name != source.robot) continue;
+      known = true;
+      source.joints = settings.joints;
+    }
     if (!known) table.AddFault("robot", absl::StrCat("'", robot, "'"), "the name of a [[robot]]");
     for (auto& [key, value] : table.Others()) source.values[key] = value;
   }

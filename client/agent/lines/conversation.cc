@@ -3,6 +3,7 @@
 #include "absl/strings/match.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
+#include "client/agent/lines/session_json.h"
 #include "client/agent/lines/status_json.h"
 #include "core/base/error_metadata.h"
 #include "core/base/status_macros.h"
@@ -29,41 +30,6 @@ Json ErrorJson(const absl::Status& status) {
     error[name] = absl::SimpleAtoi(value, &number) ? Json(number) : Json(value);
   }
   return error;
-}
-
-std::string LongName(const std::string& text, const char* prefix) {
-  return text.empty() || absl::StartsWith(text, prefix) ? text : absl::StrCat(prefix, text);
-}
-
-std::string RobotOf(JsonFields& fields) {
-  const auto robot = fields.Text("robot");
-  if (!robot.has_value() || robot->empty()) fields.AddFault("robot", "nothing", "a robot's name");
-  return LongName(robot.value_or(""), "robots/");
-}
-
-v1::SessionPurpose PurposeOf(JsonFields& fields) {
-  const std::string purpose = fields.Text("purpose").value_or("calibration");
-  if (purpose == "calibration") return v1::CALIBRATION;
-  if (purpose != "check") fields.AddFault("purpose", "'" + purpose + "'", "calibration or check");
-  return v1::CHECK;
-}
-
-void FillContent(JsonFields& fields, v1::Session* content) {
-  content->set_robot(RobotOf(fields));
-  content->set_purpose(PurposeOf(fields));
-  content->set_source(fields.Text("source").value_or("agent"));
-  content->set_display_name(fields.Text("display_name").value_or(""));
-  content->set_instrument(LongName(fields.Text("instrument").value_or(""), "instruments/"));
-  content->set_fixture(LongName(fields.Text("fixture").value_or(""), "fixtures/"));
-  content->set_operator_(fields.Text("operator").value_or(""));
-  content->set_joint_source(fields.Text("joint_source").value_or(""));
-  content->set_placement(
-      LongName(fields.Text("placement").value_or(""), (content->robot() + "/placements/").c_str()));
-  if (const auto temperature = fields.Number("temperature_c"))
-    content->set_temperature_c(*temperature);
-  if (const auto load = fields.Number("load_kg")) content->set_load_kg(*load);
-  for (std::string& column : fields.Texts("extra_columns").value_or(std::vector<std::string>()))
-    content->add_extra_columns(std::move(column));
 }
 
 Json DoneJson(Json content) {
@@ -188,10 +154,7 @@ absl::StatusOr<Json> Conversation::Begin(const Json& message) {
   FaultList faults;
   JsonFields fields(message, faults);
   fields.Ignore("op");
-  SessionStart start;
-  FillContent(fields, &start.content);
-  start.id = fields.Text("id").value_or("");
-  start.for_request = fields.Flag("request").value_or(false);
+  const SessionStart start = StartFromJson(fields);
   fields.RefuseOthers();
   TRUEPOSE_RETURN_IF_ERROR(faults.ToStatus());
   TRUEPOSE_ASSIGN_OR_RETURN(const SessionProgress begun, desk_.sink.Begin(start));
@@ -219,7 +182,7 @@ absl::StatusOr<Json> Conversation::Request(const Json& message) const {
   FaultList faults;
   JsonFields fields(message, faults);
   fields.Ignore("op");
-  const std::string robot = RobotOf(fields);
+  const std::string robot = RobotFromJson(fields);
   fields.RefuseOthers();
   TRUEPOSE_RETURN_IF_ERROR(faults.ToStatus());
   TRUEPOSE_ASSIGN_OR_RETURN(const MeasuringTask task, desk_.sink.Task(robot));
@@ -230,7 +193,7 @@ absl::StatusOr<Json> Conversation::Decline(const Json& message) const {
   FaultList faults;
   JsonFields fields(message, faults);
   fields.Ignore("op");
-  const std::string robot = RobotOf(fields);
+  const std::string robot = RobotFromJson(fields);
   const std::string reason = fields.Text("reason").value_or("");
   fields.RefuseOthers();
   TRUEPOSE_RETURN_IF_ERROR(faults.ToStatus());

@@ -1,81 +1,60 @@
 #include "client/agent/sources/json_line.h"
 
-#include <string>
+#include <utility>
 
+#include "absl/strings/str_cat.h"
+#include "client/agent/lines/reading_json.h"
+#include "client/agent/lines/session_json.h"
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
-#include "google/protobuf/struct.pb.h"
-#include "google/protobuf/util/json_util.h"
 
 namespace truepose::agent {
 namespace {
 
-using google::protobuf::Message;
-using google::protobuf::Struct;
-using google::protobuf::Value;
-
-constexpr char kExpected[] = R"({"begin": {}}, {"reading": {}} or {"seal": {}})";
-
-absl::Status Fill(std::string_view json, std::string_view place, const std::string& expected,
-                  Message* message) {
-  const auto status =
-      google::protobuf::util::JsonStringToMessage({json.data(), json.size()}, message);
-  if (status.ok()) return absl::OkStatus();
-  return FaultStatus(std::string(place), std::string(status.message()), expected);
+// Calls `read` with the fields of the line; whatever it didn't ask for is a fault.
+template <class Read>
+absl::StatusOr<JsonLine> ReadFields(const Json& line, const Read& read) {
+  FaultList faults;
+  JsonFields fields(line, faults);
+  fields.Ignore("op");
+  JsonLine result = read(fields);
+  fields.RefuseOthers();
+  TRUEPOSE_RETURN_IF_ERROR(faults.ToStatus());
+  return result;
 }
 
-// A value of the line as a message: back to JSON, since only that knows field names and types.
-absl::Status Fill(const Value& value, std::string_view place, const std::string& expected,
-                  Message* message) {
-  std::string json;
-  const auto status = google::protobuf::util::MessageToJsonString(value, &json);
-  if (!status.ok()) return FaultStatus(std::string(place), "a value that is no JSON", expected);
-  return Fill(json, place, expected, message);
+void FillDefaults(const v1::Session& defaults, Json* line) {
+  if (!defaults.robot().empty() && !line->contains("robot")) (*line)["robot"] = defaults.robot();
+  if (defaults.purpose() == v1::CHECK && !line->contains("purpose")) (*line)["purpose"] = "check";
 }
 
-absl::Status SetText(const Value& value, const std::string& field, std::string_view place,
-                     std::string* text) {
-  if (value.kind_case() != Value::kStringValue)
-    return FaultStatus(std::string(place), "\"" + field + "\" that is no text", "a text");
-  *text = value.string_value();
-  return absl::OkStatus();
-}
-
-absl::StatusOr<JsonLine> ParseBegin(const Struct& begin, std::string_view place) {
-  SessionStart start;
-  for (const auto& [name, value] : begin.fields()) {
-    absl::Status status;
-    if (name == "session") {
-      status = Fill(value, place, "a Session", &start.content);
-    } else if (name == "id") {
-      status = SetText(value, name, place, &start.id);
-    } else if (name == "key") {
-      status = SetText(value, name, place, &start.key);
-    } else if (name == "for_request" && value.kind_case() == Value::kBoolValue) {
-      start.for_request = value.bool_value();
-    } else {
-      status = FaultStatus(std::string(place), "\"" + name + "\" of begin",
-                           "session, id, key, or for_request with true or false");
-    }
-    TRUEPOSE_RETURN_IF_ERROR(status);
+absl::StatusOr<JsonLine> ParseLine(Json line, const v1::Session& defaults) {
+  if (!line.is_object()) return FaultStatus("line", "no JSON object", "a JSON object");
+  const auto op = line.find("op");
+  const std::string word = op != line.end() && op->is_string() ? op->get<std::string>() : "";
+  if (word == "reading") {
+    return ReadFields(line, [](JsonFields& fields) { return ReadingFromJson(fields, {}); });
   }
-  return start;
+  if (word == "begin") {
+    FillDefaults(defaults, &line);
+    return ReadFields(line, [](JsonFields& fields) { return StartFromJson(fields); });
+  }
+  if (word == "seal") {
+    return ReadFields(line, [](JsonFields&) { return SealLine{}; });
+  }
+  return FaultStatus("op", word.empty() ? "nothing" : "'" + word + "'",
+                     "one of begin, reading, seal");
 }
 
 }  // namespace
 
-absl::StatusOr<JsonLine> ParseJsonLine(std::string_view text, std::string_view place) {
-  Struct line;
-  TRUEPOSE_RETURN_IF_ERROR(Fill(text, place, kExpected, &line));
-  if (line.fields_size() != 1 || line.fields().begin()->second.kind_case() != Value::kStructValue)
-    return FaultStatus(std::string(place), "another object", kExpected);
-  const auto& [name, value] = *line.fields().begin();
-  if (name == "begin") return ParseBegin(value.struct_value(), place);
-  if (name == "seal") return SealLine{};
-  if (name != "reading") return FaultStatus(std::string(place), "\"" + name + "\"", kExpected);
-  v1::Reading reading;
-  TRUEPOSE_RETURN_IF_ERROR(Fill(value, place, "a Reading", &reading));
-  return reading;
+absl::StatusOr<JsonLine> ParseJsonLine(std::string_view text, std::string_view place,
+                                       const v1::Session& defaults) {
+  auto parsed = ParseLine(Json::parse(text, nullptr, false), defaults);
+  if (parsed.ok()) return parsed;
+  FaultList faults;
+  faults.AddAll(parsed.status(), absl::StrCat(std::string(place), ": "));
+  return faults.ToStatus();
 }
 
 }  // namespace truepose::agent

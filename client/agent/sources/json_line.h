@@ -1,14 +1,12 @@
-// What a line of the JSON interface says.
+// What a line of the JSON interface says, for a source that answers nothing (lines/conversation.h
+// answers; docs/agent.md has the lines).
 //
-//   {"begin": {"session": {"robot": "robots/ur10", "operator": "Ada"}, "id": "UUID", "key": "...",
-//              "for_request": true}}     all of it optional where the source has a robot of its own
-//   {"reading": {"joints_measured": [0, -1.57, ...], "position_m": {"x": 1.2, "y": 0, "z": 0.4}}}
-//   {"seal": {}}
-//
-// `session` and `reading` are v1::Session and v1::Reading in the JSON of protobuf with the names of
-// the .proto files: rad and m.
+//   {"op": "begin", "robot": "ur10", "operator": "Ada", "id": "UUID"}
+//   {"op": "reading", "joints_deg": [0, -90, ...], "position_mm": [812.5, -40, 633.1]}
+//   {"op": "seal"}
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <variant>
 
@@ -20,8 +18,10 @@ namespace truepose::agent {
 struct SealLine {};
 using JsonLine = std::variant<SessionStart, v1::Reading, SealLine>;
 
-// @returns kInvalidArgument with one fault of `place` for anything else: no JSON, another key or
-// more than one, a field that the message doesn't have, a value of another type.
-absl::StatusOr<JsonLine> ParseJsonLine(std::string_view text, std::string_view place);
+// @param defaults robot and purpose of a begin that names none.
+// @returns kInvalidArgument with every fault of the line, fields below `place`: no JSON object,
+// another op, a key that it doesn't have, a value of another kind.
+absl::StatusOr<JsonLine> ParseJsonLine(std::string_view text, std::string_view place,
+                                       const v1::Session& defaults);
 
 }  // namespace truepose::agent

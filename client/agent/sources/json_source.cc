@@ -52,7 +52,8 @@ class Reader {
                          absl::StrCat("more than ", line.text.size(), " bytes"), "a shorter line");
     }
     if (line.text.find_first_not_of(" \t") == std::string::npos) return absl::OkStatus();
-    TRUEPOSE_ASSIGN_OR_RETURN(JsonLine parsed, ParseJsonLine(line.text, PlaceOf(line.number)));
+    TRUEPOSE_ASSIGN_OR_RETURN(JsonLine parsed,
+                              ParseJsonLine(line.text, PlaceOf(line.number), options_.content));
     if (auto* reading = std::get_if<v1::Reading>(&parsed))
       return TakeReading(std::move(*reading), line.number);
     is_line_fault_ = false;
@@ -65,6 +66,7 @@ class Reader {
     v1::Session content = options_.content;
     content.MergeFrom(start.content);
     start.content = std::move(content);
+    if (start.content.source().empty()) start.content.set_source(options_.place);
     refused_ = false;
     if (options_.settle.has_value()) settled_.emplace(*options_.settle);
     feed_ = std::make_unique<SessionFeed>(sink_, stop_, options_.place, report_);

@@ -30,6 +30,10 @@ class SessionFeed {
   bool was_sealed() const { return progress_.sealed; }
   const std::string& session() const { return progress_.session; }
 
+  // Goes on behind the readings that the session has, for who makes readings instead of reading
+  // them again. @returns how many those are. @pre nothing was added yet.
+  int64_t GoOn() { return readings_ = progress_.readings; }
+
   // Takes a reading of that line; hands the batch over when it is full. Readings that the sink
   // refuses are reported with their line and left out; the others get the numbers behind the last
   // one. @returns as Begin; what it says is of the whole session then.

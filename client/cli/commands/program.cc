@@ -28,7 +28,7 @@ constexpr size_t kMostBytes = 32 << 20;
 
 struct Options {
   bool local = false, keep_uncorrected = false, diff = false;
-  std::string program, dialect, calibration, robot, output;
+  std::string program, dialect, calibration, table, robot, output;
   formats::UrdfEnds ends;
   double largest_change_deg = 5.0;
 };
@@ -114,6 +114,25 @@ absl::Status CorrectOnServer(const Invocation& invocation, const Options& option
       });
 }
 
+absl::Status CorrectWithTable(const Invocation& invocation, const Options& options) {
+  TRUEPOSE_ASSIGN_OR_RETURN(const ProgramFiles files, LoadProgram(options));
+  formats::RobotFile robot;
+  if (!options.robot.empty()) {
+    TRUEPOSE_ASSIGN_OR_RETURN(robot, LoadRobot(options.robot, options.ends));
+  }
+  TRUEPOSE_ASSIGN_OR_RETURN(
+      const ProgramCorrection correction,
+      TableCorrection(options.table, options.robot.empty() ? nullptr : &robot.nominal));
+  return CorrectFile(invocation, options, files, correction);
+}
+
+absl::Status Correct(const Invocation& invocation, const Options& options) {
+  if (options.table.empty() == options.calibration.empty())
+    return UsageError("give --calibration or --table, and not both");
+  if (!options.table.empty()) return CorrectWithTable(invocation, options);
+  return options.local ? CorrectLocally(invocation, options) : CorrectOnServer(invocation, options);
+}
+
 constexpr char kFooter[] =
     "Only the numbers of joint targets change; all else stays byte for byte. Poses, calculated\n"
     "targets and whatever else was not understood are listed (docs/programs.md). A target that "
@@ -121,7 +140,8 @@ constexpr char kFooter[] =
     "be corrected refuses the program: no file is written.\n\nExamples:\n"
     "  truepose program correct weld.src --calibration kr10#3 --output corrected/weld.src --diff\n"
     "  truepose program correct pick.script --local --robot ur10.yaml --calibration ur10.json \\\n"
-    "      --output pick_corrected.script";
+    "      --output pick_corrected.script\n"
+    "  truepose program correct cell.mod --table irb.tpct --output corrected/cell.mod";
 
 void AddCorrect(const Command& program) {
   const auto options = std::make_shared<Options>();
@@ -130,9 +150,12 @@ void AddCorrect(const Command& program) {
       .Option("--dialect", "NAME", &options->dialect,
               "urscript, krl or rapid; default: by the extension")
       .Option("--local", "", &options->local, "Compute here, from files, without a server")
-      .Required("--calibration", "NAME|FILE", &options->calibration,
-                "Such as ur10#1; with --local a file")
-      .Option("--robot", "FILE", &options->robot, "With --local: the robot file")
+      .Option("--calibration", "NAME|FILE", &options->calibration,
+              "Such as ur10#1; with --local a file")
+      .Option("--table", "FILE", &options->table,
+              "A compensation table instead of a calibration; needs no server")
+      .Option("--robot", "FILE", &options->robot,
+              "With --local: the robot file. With --table: the robot it has to be of")
       .Option("--urdf-base", "LINK", &options->ends.base, kUrdfBaseHelp)
       .Option("--urdf-tip", "LINK", &options->ends.tip, kUrdfTipHelp)
       .Required("--output", "FILE", &options->output,
@@ -143,10 +166,8 @@ void AddCorrect(const Command& program) {
       .Option("--largest-change", "DEG", &options->largest_change_deg,
               "A joint may change by so much; more means a singularity. Default 5")
       .Footer(kFooter)
-      .Run(Command::Reach::kRemote, [options](const Invocation& invocation) {
-        return options->local ? CorrectLocally(invocation, *options)
-                              : CorrectOnServer(invocation, *options);
-      });
+      .Run(Command::Reach::kRemote,
+           [options](const Invocation& invocation) { return Correct(invocation, *options); });
 }
 
 }  // namespace

@@ -9,7 +9,8 @@ namespace truepose::agent {
 absl::StatusOr<SessionProgress> FakeSink::Begin(const SessionStart& start) {
   const std::lock_guard lock(mutex_);
   if (!refuse_begin_.ok()) return refuse_begin_;
-  const std::string given = start.id + start.key;
+  if (start.for_request && !task_.has_value()) return absl::FailedPreconditionError("no request");
+  const std::string given = start.for_request ? task_->request : start.id + start.key;
   const std::string name = given.empty() ? "new " + std::to_string(sessions_.size()) : given;
   const auto [place, is_new] = by_name_.try_emplace(name, sessions_.size());
   if (is_new) sessions_.push_back({start.content, {}, false});
@@ -50,12 +51,26 @@ absl::StatusOr<SessionProgress> FakeSink::Seal(const std::string& name, int64_t 
   if (readings != static_cast<int64_t>(session.readings.size()))
     return absl::InvalidArgumentError("another number of readings");
   session.sealed = true;
+  if (task_.has_value() && by_name_.contains(task_->request) &&
+      by_name_[task_->request] == std::stoul(name))
+    task_.reset();
   changed_.notify_all();
   SessionProgress progress;
   progress.session = name;
   progress.readings = readings;
   progress.sealed = true;
   return progress;
+}
+
+absl::StatusOr<MeasuringTask> FakeSink::Task(const std::string&) {
+  const std::lock_guard lock(mutex_);
+  if (!task_.has_value()) return absl::NotFoundError("no request");
+  return *task_;
+}
+
+void FakeSink::SetTask(MeasuringTask task) {
+  const std::lock_guard lock(mutex_);
+  task_ = std::move(task);
 }
 
 void FakeSink::RefuseAppend(std::function<absl::Status(const std::vector<v1::Reading>&)> refuse) {

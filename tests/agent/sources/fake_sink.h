@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,9 +26,9 @@ class FakeSink : public ReadingSink {
   absl::StatusOr<int64_t> Append(const std::string& session, int64_t first_number,
                                  const std::vector<v1::Reading>& readings) override;
   absl::StatusOr<SessionProgress> Seal(const std::string& session, int64_t readings) override;
-  absl::StatusOr<MeasuringTask> Task(const std::string&) override {
-    return absl::NotFoundError("no request");
-  }
+  // The task that was set; it is done when its session is sealed.
+  absl::StatusOr<MeasuringTask> Task(const std::string& robot) override;
+  void SetTask(MeasuringTask task);
 
   // Asked before every Append; a status that is not OK is the answer.
   void RefuseAppend(std::function<absl::Status(const std::vector<v1::Reading>&)> refuse);
@@ -48,6 +49,7 @@ class FakeSink : public ReadingSink {
   std::map<std::string, size_t> by_name_;  // key or id -> index
   std::function<absl::Status(const std::vector<v1::Reading>&)> refuse_;
   absl::Status refuse_begin_;
+  std::optional<MeasuringTask> task_;
 };
 
 // Faults as lines, for any thread.

@@ -7,7 +7,6 @@
 #include <memory>
 #include <thread>
 
-#include "client/agent/sources/json_line.h"
 #include "tests/agent/sources/fake_sink.h"
 
 namespace truepose::agent {
@@ -16,8 +15,7 @@ namespace {
 using ::testing::HasSubstr;
 
 std::string Reading(const std::string& q) {
-  return R"({"reading": {"joints_measured": [)" + q +
-         R"(, 0], "position_m": {"x": 0.1, "y": 0, "z": 0}}})" + "\n";
+  return R"({"op": "reading", "joints": [)" + q + R"(, 0], "position_mm": [100, 0, 0]})" + "\n";
 }
 
 class JsonSourceTest : public ::testing::Test {
@@ -75,19 +73,18 @@ TEST_F(JsonSourceTest, AReadingIsHandedOverAtOnce) {
   Join();
 }
 
+constexpr char kBegin[] = "{\"op\": \"begin\"}\n", kSeal[] = "{\"op\": \"seal\"}\n";
+
 TEST_F(JsonSourceTest, SessionsBeginAndAreSealed) {
-  Read(R"({"begin": {"session": {"robot": "robots/s", "operator": "Ada"}, "id": "u"}})"
+  Read(R"({"op": "begin", "robot": "s", "operator": "Ada", "id": "u", "purpose": "check"})"
        "\r\n" +
-       Reading("1") + Reading("2") +
-       R"({"seal": {}})"
-       "\n\n"
-       R"({"begin": {"key": "k"}})"
-       "\n" +
+       Reading("1") + Reading("2") + kSeal + "\n" + kBegin +
        Reading("3").substr(0, Reading("3").size() - 1));
   const std::vector<FakeSession> sessions = sink_.Sessions();
   ASSERT_EQ(sessions.size(), 2u);
   EXPECT_EQ(sessions[0].content.robot(), "robots/s");
   EXPECT_EQ(sessions[0].content.operator_(), "Ada");
+  EXPECT_EQ(sessions[0].content.purpose(), v1::CHECK);
   EXPECT_EQ(FakeSink::Joints(sessions[0]), "1 2");
   EXPECT_TRUE(sessions[0].sealed);
   EXPECT_EQ(sessions[1].content.robot(), "robots/r");
@@ -99,31 +96,28 @@ TEST_F(JsonSourceTest, SessionsBeginAndAreSealed) {
 // Would catch one bad line that ends the stream, and a line number that is off.
 TEST_F(JsonSourceTest, BadLinesAreReportedAndTheRestGoesOn) {
   Read(Reading("1") + "{oh\n" +
-       R"({"reading": {"joint": 1}})"
-       "\n[1]\n" +
-       R"({"reading": {}, "seal": {}})"
-       "\n"
-       R"({"read": {}})"
+       R"({"op": "reading", "joint": 1})"
+       "\n[1]\n"
+       R"({"op": "read"})"
        "\n" +
        std::string(70'000, 'x') +
        "\n"
-       R"({"begin": {"what": 1}})"
+       R"({"op": "begin", "what": 1, "operator": 2})"
        "\n" +
        Reading("2"));
   ASSERT_EQ(sink_.Sessions().size(), 1u);
   EXPECT_EQ(FakeSink::Joints(sink_.Sessions()[0]), "1 2");
-  for (const char* place : {"stdin:2: ", "stdin:3: ", "stdin:4: ", "stdin:5: found another object",
-                            "stdin:6: found \"read\"", "stdin:7: found more than 65536 bytes",
-                            "stdin:8: found \"what\" of begin"})
+  for (const char* place :
+       {"stdin:2: line: found no JSON object", "stdin:3: joint: found a key that is not known",
+        "stdin:4: line: ", "stdin:5: op: found 'read', expected one of begin, reading, seal",
+        "stdin:6: found more than 65536 bytes", "stdin:7: what: ", "stdin:7: operator: "})
     EXPECT_THAT(faults_.Text(), HasSubstr(place));
 }
 
 // Would catch readings of a refused session that are counted to another.
 TEST_F(JsonSourceTest, ARefusedSessionTakesNoReadings) {
   sink_.RefuseBegin(absl::NotFoundError("no robot x"));
-  Read(R"({"begin": {}})"
-       "\n" +
-       Reading("1") + Reading("2"));
+  Read(kBegin + Reading("1") + Reading("2"));
   EXPECT_TRUE(sink_.Sessions().empty());
   EXPECT_THAT(faults_.Text(), HasSubstr("stdin:1"));
   EXPECT_THAT(faults_.Text(), HasSubstr("no robot x"));
@@ -131,13 +125,9 @@ TEST_F(JsonSourceTest, ARefusedSessionTakesNoReadings) {
 }
 
 TEST_F(JsonSourceTest, SealingNeedsASession) {
-  Read(R"({"seal": {}})"
-       "\n" +
-       Reading("1") +
-       R"({"seal": {}})"
-       "\n" +
-       Reading("2"));
+  Read(kSeal + Reading("1") + kSeal + Reading("2"));
   EXPECT_EQ(FakeSink::Joints(sink_.Sessions()[0]), "1");
+  EXPECT_EQ(sink_.Sessions()[0].content.source(), "stdin");
   EXPECT_THAT(faults_.Text(), HasSubstr("a seal without a session"));
   EXPECT_THAT(faults_.Text(),
               HasSubstr("stdin:4: found a reading of a session that was refused or sealed"));
@@ -145,7 +135,7 @@ TEST_F(JsonSourceTest, SealingNeedsASession) {
 
 // The writer sends all again after a break; would catch readings that come twice.
 TEST_F(JsonSourceTest, WhatIsSentAgainHasNoEffect) {
-  const std::string all = R"({"begin": {"id": "u"}})"
+  const std::string all = R"({"op": "begin", "id": "u"})"
                           "\n" +
                           Reading("1") + Reading("2");
   StartSource();

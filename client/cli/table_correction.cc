@@ -1,0 +1,109 @@
+// Programs corrected by a compensation table.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <utility>
+
+#include "absl/strings/escaping.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "client/cli/program_correction.h"
+#include "compensation/correct_by_table.h"
+#include "compensation/table_file.h"
+#include "convert/run.h"
+#include "core/base/fault.h"
+
+namespace truepose::cli {
+namespace {
+
+using compensation::Correction;
+using compensation::Outcome;
+using compensation::Table;
+using compensation::TableFile;
+
+constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+
+// "q2+q3+q4" of an axis of the domain.
+std::string AxisText(const Table& table, int axis) {
+  std::string text;
+  for (int j = 0; j < table.header.joints; ++j) {
+    const double weight = table.axis[static_cast<size_t>(axis)].weight[static_cast<size_t>(j)];
+    if (weight == 0.0) continue;
+    absl::StrAppend(&text,
+                    weight < 0.0   ? "-"
+                    : text.empty() ? ""
+                                   : "+",
+                    std::abs(weight) == 1.0 ? "" : absl::StrCat(std::abs(weight), " "), "q", j + 1);
+  }
+  return text;
+}
+
+std::string FaultText(const Table& table, const Correction& correction) {
+  switch (correction.outcome) {
+    case Outcome::kOk:
+      return "";
+    case Outcome::kOutsideDomain:
+      return absl::StrCat("outside the domain of the table in ", AxisText(table, correction.joint));
+    case Outcome::kNearSingular:
+      return absl::StrFormat(
+          "near a singularity (smallest singular value %.3g, the table asks for %.3g)",
+          correction.smallest_singular_value, table.header.smallest_singular_value);
+    case Outcome::kBeyondLimit:
+      return absl::StrCat("corrected, joint ", correction.joint + 1, " is beyond its limit");
+    case Outcome::kUnreachable:
+      return absl::StrFormat("out of reach: %.3g mm and %.3g deg are left",
+                             1e3 * correction.position_error_m,
+                             kDegPerRad * correction.rotation_error_rad);
+    case Outcome::kInvalidArgument:
+      break;
+  }
+  return "no joint values that a robot can have";
+}
+
+programs::CorrectedJoints Correct(const Table& table, const std::vector<double>& joints) {
+  const Correction correction = CorrectByTable(table, joints.data());
+  std::string fault = FaultText(table, correction);
+  if (!fault.empty()) return {{}, std::move(fault)};
+  return {{correction.q.begin(), correction.q.begin() + table.header.joints}, ""};
+}
+
+// The digest of convert::NominalDigest as a table has it.
+compensation::Digest DigestOf(const v1::Nominal& nominal) {
+  const std::string bytes = absl::HexStringToBytes(convert::NominalDigest(nominal));
+  compensation::Digest digest{};
+  std::copy_n(bytes.begin(), std::min(bytes.size(), digest.size()), digest.begin());
+  return digest;
+}
+
+}  // namespace
+
+absl::StatusOr<ProgramCorrection> TableCorrection(const std::string& path,
+                                                  const v1::Nominal* nominal) {
+  compensation::TableExpectation expectation;
+  if (nominal != nullptr) expectation.nominal_digest = DigestOf(*nominal);
+  const auto file = std::make_shared<TableFile>();
+  const compensation::TableReport report = TableFile::Map(path.c_str(), expectation, file.get());
+  if (!report.ok()) {
+    return FaultStatus("--table", absl::StrCat(path, ": ", report.message.data()),
+                       "a whole compensation table of this robot");
+  }
+  const Table& table = file->table();
+  if (table.arm.measuring) {
+    return FaultStatus("--table", absl::StrCat(path, ", of a measuring robot"),
+                       "one of a robot that runs programs");
+  }
+  ProgramCorrection correction;
+  for (int j = 0; j < table.header.joints; ++j)
+    correction.prismatic.push_back(table.arm.nominal.prismatic[static_cast<size_t>(j)]);
+  correction.correct = [file](const std::vector<std::vector<double>>& targets)
+      -> absl::StatusOr<std::vector<programs::CorrectedJoints>> {
+    std::vector<programs::CorrectedJoints> corrected;
+    for (const std::vector<double>& joints : targets)
+      corrected.push_back(Correct(file->table(), joints));
+    return corrected;
+  };
+  return correction;
+}
+
+}  // namespace truepose::cli
