@@ -180,15 +180,21 @@ class SlowWay {
 };
 
 // The fast way for six joints. @returns false when the slow one is to look at it.
-bool SolveFast(const Arm& arm, const Pose& X_BF, const ExactOptions& options, ChordState* state,
-               Correction* result) {
+bool SolveFast(const Arm& arm, bool has_effects, const Pose& X_BF, const ExactOptions& options,
+               ChordState* state, Correction* result) {
   ChordOptions chords;
   chords.position_tolerance_m = options.position_tolerance_m;
   chords.rotation_tolerance_rad = options.rotation_tolerance_rad;
-  chords.characteristic_length_m = LengthOf(arm, options);
+  // To know when to look closer a metre will do: what is called ok is measured anyhow.
+  if (options.characteristic_length_m > 0)
+    chords.characteristic_length_m = options.characteristic_length_m;
   chords.largest_gain = LargestGain(options);
   if (!SolveByChords(arm, X_BF, chords, state)) return false;
-  if (!ReadingsOf(arm, state->v.data(), result->q.data())) return false;
+  if (!has_effects) {
+    result->q = state->v;
+  } else if (!ReadingsOf(arm, state->v.data(), result->q.data())) {
+    return false;
+  }
   if (BeyondLimit(arm, result->q.data()) >= 0) return false;
   result->outcome = Outcome::kOk;
   result->iterations = state->iterations;
@@ -210,7 +216,7 @@ bool SolveFastFrom(const Arm& arm, const Pose& X_BF, const double* q, const Exac
   if (arm.nominal.joints != 6) return false;
   ChordState state;
   StartAt(arm, q, &state);
-  return SolveFast(arm, X_BF, options, &state, result);
+  return SolveFast(arm, HasEffects(arm), X_BF, options, &state, result);
 }
 
 // What not even the nominal arm reaches is no fault of the correction's.
@@ -262,8 +268,9 @@ Correction CorrectJoints(const Arm& arm, const double* q_controller,
     ChordState state;
     std::copy_n(q_controller, 6, state.v.data());
     state.motions = motions;  // without effects the sines of both chains are the same
-    if (HasEffects(arm)) StartAt(arm, q_controller, &state);
-    if (SolveFast(arm, X_BF, options, &state, &result)) return result;
+    const bool has_effects = HasEffects(arm);
+    if (has_effects) StartAt(arm, q_controller, &state);
+    if (SolveFast(arm, has_effects, X_BF, options, &state, &result)) return result;
   }
   return SlowWay(arm, X_BF, q_controller, options).Solve();
 }

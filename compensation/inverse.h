@@ -22,7 +22,7 @@ struct InverseOptions : ExactOptions {
   std::uint64_t seed = 1;
   // A solution that damped Newton finds this near to the seed is taken for the nearest: rad, or
   // characteristic lengths.
-  double near = 0.5;
+  double near = 1;
 };
 
 struct Branches {

@@ -170,9 +170,10 @@ Twist Remainder(const Pose& desired, const Pose& X_BF) noexcept {
 
 void ToChain(const Arm& arm, const double* q_controller, double* q_chain) noexcept {
   const int n = arm.nominal.joints;
-  for (int i = 0; i < n; ++i) {
-    q_chain[i] = arm.joint_offset(i);
-    for (int j = 0; j < n; ++j) q_chain[i] += arm.joint_scale(i, j) * q_controller[j];
+  for (int i = 0; i < n; ++i) q_chain[i] = arm.joint_offset(i);
+  for (int j = 0; j < n; ++j) {
+    const double* column = arm.joint_scale.data() + kMaxJoints * j;
+    for (int i = 0; i < n; ++i) q_chain[i] += column[i] * q_controller[j];
   }
 }
 

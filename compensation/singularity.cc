@@ -7,6 +7,8 @@
 namespace truepose::compensation {
 namespace {
 
+constexpr double kLarge = 1e6;
+
 Jacobian WithoutUnits(const JointChain& chain, const Sweep& sweep, double length_m) {
   Jacobian J = JacobianOf(chain, sweep);
   J.topRows<3>() /= length_m;
@@ -28,17 +30,15 @@ double SmallestSingularValue(const JointChain& chain, const Sweep& sweep,
                              double length_m) noexcept {
   // Roots of eigenvalues are right to 1e-8; what is asked is whether the value is below 1e-3.
   const Jacobian J = WithoutUnits(chain, sweep, length_m);
-  double least;
-  if (chain.joints >= 6) {
-    const Eigen::Matrix<double, 6, 6> square = J.lazyProduct(J.transpose());
-    least =
-        Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>>(square, Eigen::EigenvaluesOnly)
-            .eigenvalues()(0);
-  } else {
-    using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 5, 5>;
-    const Small square = J.transpose().lazyProduct(J);
-    least = Eigen::SelfAdjointEigenSolver<Small>(square, Eigen::EigenvaluesOnly).eigenvalues()(0);
-  }
+  using Square = Eigen::Matrix<double, 6, 6>;
+  // Of fewer joints J^T J, with eigenvalues that are never the least where it has no joint.
+  Square square = Square::Identity() * kLarge;
+  if (chain.joints >= 6)
+    square = J.lazyProduct(J.transpose());
+  else
+    square.topLeftCorner(chain.joints, chain.joints) = J.transpose().lazyProduct(J);
+  const Eigen::SelfAdjointEigenSolver<Square> solver(square, Eigen::EigenvaluesOnly);
+  const double least = solver.eigenvalues()(0);
   return std::sqrt(std::max(0.0, least));
 }
 

@@ -32,6 +32,25 @@ absl::StatusOr<Correction> LoadCorrection(Snapshot& snapshot, const std::string&
   return Correction{std::move(calibration), std::move(*revision.mutable_nominal())};
 }
 
+// Joints leave the server for a robot only by a calibration that nobody has rejected, of a robot
+// that is there. One that is not released yet may be tried.
+absl::Status CheckMayMoveARobot(Snapshot& snapshot, const v1::Calibration& calibration) {
+  TRUEPOSE_ASSIGN_OR_RETURN(const auto name,
+                            store::ParseCalibrationName(calibration.name(), "calibration"));
+  TRUEPOSE_ASSIGN_OR_RETURN(const v1::Robot robot,
+                            store::GetRobot(snapshot, store::RobotName(name.robot_id)));
+  FaultList faults;
+  if (calibration.state() == v1::REJECTED) {
+    faults.Add("calibration", absl::StrCat(calibration.name(), ", which is REJECTED"),
+               "a calibration that was not rejected");
+  }
+  if (robot.has_delete_time()) {
+    faults.Add("calibration", absl::StrCat(calibration.name(), " of a robot that is deleted"),
+               "a calibration of a robot that is not deleted");
+  }
+  return faults.ToStatus(absl::StatusCode::kFailedPrecondition);
+}
+
 struct EvaluationInput {
   Correction correction;
   v1::SessionInput session;
@@ -170,9 +189,14 @@ absl::StatusOr<v1::CompareCalibrationsResponse> CompareCalibrations(
 absl::StatusOr<v1::CompensateResponse> Compensate(const CallContext& call,
                                                   const v1::CompensateRequest& request) {
   TRUEPOSE_RETURN_IF_ERROR(CheckRequest(request));
-  TRUEPOSE_ASSIGN_OR_RETURN(const Correction correction, call.store.Read([&](Snapshot& snapshot) {
-    return LoadCorrection(snapshot, request.calibration());
-  }));
+  TRUEPOSE_ASSIGN_OR_RETURN(
+      const Correction correction,
+      call.store.Read([&](Snapshot& snapshot) -> absl::StatusOr<Correction> {
+        TRUEPOSE_ASSIGN_OR_RETURN(Correction loaded,
+                                  LoadCorrection(snapshot, request.calibration()));
+        TRUEPOSE_RETURN_IF_ERROR(CheckMayMoveARobot(snapshot, loaded.calibration));
+        return loaded;
+      }));
   return convert::RunCompensation(correction.nominal, correction.calibration, request);
 }
 

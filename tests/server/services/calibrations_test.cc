@@ -2,6 +2,9 @@
 
 #include "absl/strings/str_cat.h"
 #include "convert/run.h"
+#include "server/services/jobs.h"
+#include "server/services/robots.h"
+#include "server/store/release.h"
 #include "tests/server/testing/handler_test.h"
 
 namespace truepose::services {
@@ -138,6 +141,33 @@ TEST_F(CalibrationsTest, CompensateTellsUnknownFromMalformed) {
   EXPECT_THAT(Compensate(call(), request), HasCode(absl::StatusCode::kNotFound));
   request.set_calibration("9");
   EXPECT_THAT(Compensate(call(), request), HasFaultsAt(Fields{"calibration"}));
+}
+
+// Would catch a robot that is moved by what a person has rejected.
+TEST_F(CalibrationsTest, CompensateRefusesARejectedCalibration) {
+  const auto rejected = call().store.Write([](store::Transaction& transaction) {
+    return store::AppendReleaseStep(transaction, "robots/ur10/calibrations/1", v1::REJECTED, "anna",
+                                    "loose target");
+  });
+  ASSERT_THAT(rejected, IsOk());
+  const auto refused = Compensate(call(), OneTarget());
+  EXPECT_THAT(refused, HasCode(absl::StatusCode::kFailedPrecondition));
+  EXPECT_EQ(testing::FieldsOf(refused.status()), Fields{"calibration"});
+}
+
+// Would catch joints for a robot that is gone; brought back it gets them again.
+TEST_F(CalibrationsTest, CompensateRefusesADeletedRobot) {
+  v1::CancelCalibrationJobRequest cancel;  // no robot goes whose jobs have not ended
+  cancel.set_name(absl::StrCat("jobs/", kJob1));
+  ASSERT_THAT(CancelCalibrationJob(call(), cancel), IsOk());
+  const auto named = Parse<v1::DeleteRobotRequest>(R"pb(name: "robots/ur10")pb");
+  ASSERT_THAT(DeleteRobot(call(), named), IsOk());
+  const auto refused = Compensate(call(), OneTarget());
+  EXPECT_THAT(refused, HasCode(absl::StatusCode::kFailedPrecondition));
+  EXPECT_EQ(testing::FieldsOf(refused.status()), Fields{"calibration"});
+  const auto back = Parse<v1::UndeleteRobotRequest>(R"pb(name: "robots/ur10")pb");
+  ASSERT_THAT(UndeleteRobot(call(), back), IsOk());
+  EXPECT_THAT(Compensate(call(), OneTarget()), IsOk());
 }
 
 // Would catch a call that computes for minutes.
