@@ -10,10 +10,14 @@
 //   kOk               reached to the tolerances; fewer than six joints: the least remainder.
 //   kNearSingular     joints move by more than 0.1 / singular_threshold times the error they undo,
 //                     and the nominal or the corrected place is nearer to a singularity than
-//                     singular_threshold (singularity.h); or the pose is not reached and the
-//                     nominal place is that near.
+//                     singular_threshold (singularity.h), or is in another configuration; or the
+//                     pose is not reached and the nominal place is that near. Fewer than six
+//                     joints: the weighted coordinates hardly tell where a joint should be, so that
+//                     the least remainder is far away (the first condition alone) or was not found.
 //   kBeyondLimit      reached only beyond the limit of `joint`; q is the best within all limits.
-//   kUnreachable      neither: q is the nearest pose, 1 rad counting as the characteristic length.
+//   kUnreachable      not reached from the nominal place nor from 100 others around it: q is the
+//                     nearest pose that was found, 1 rad counting as the characteristic length;
+//                     with fewer joints point_F is missed (largest_position_miss_m).
 //   kInvalidArgument  a number that is not finite, a pose that is no rotation, or a measuring arm.
 // A pure function of its arguments: any number of threads may share an Arm.
 #pragma once

@@ -162,7 +162,7 @@ Correction Reached(const Arm& arm, const LeastSquaresTask& task, const JointArra
 Branches AllBranches(const Arm& arm, const Pose& X_BF, const double* q_reference,
                      const InverseOptions& options) noexcept {
   Branches branches;
-  if (!AreFinite(q_reference, arm.nominal.joints) || !IsPose(X_BF)) return branches;
+  if (!AreJoints(arm, q_reference) || !IsPose(X_BF)) return branches;
   const LeastSquaresTask task = TaskOf(arm, arm.nominal, X_BF, options);
   const SphericalWrist wrist = SphericalWristOf(arm.nominal);
   Collector collector(arm, task, q_reference, &branches);
@@ -180,7 +180,7 @@ Branches AllBranches(const Arm& arm, const Pose& X_BF, const double* q_reference
 
 Correction NearestBranch(const Arm& arm, const Pose& X_BF, const double* q_seed,
                          const InverseOptions& options) noexcept {
-  if (!AreFinite(q_seed, arm.nominal.joints) || !IsPose(X_BF)) return {};
+  if (!AreJoints(arm, q_seed) || !IsPose(X_BF)) return {};
   const LeastSquaresTask task = TaskOf(arm, arm.nominal, X_BF, options);
   Branches near;
   Collector collector(arm, task, q_seed, &near);

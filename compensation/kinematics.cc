@@ -66,7 +66,7 @@ void AddSmallStep(const JointChain& chain, const double* step, Motions* motions)
       continue;
     }
     const double a = step[i], b = a * a;
-    const double s = a * (1 - b * (1.0 / 6 - b * (1.0 / 120)));
+    const double s = a * (1 - b * (1.0 / 6 - b * (1.0 / 120 - b * (1.0 / 5040))));
     const double c = 1 - b * (0.5 - b * (1.0 / 24 - b * (1.0 / 720)));
     const double cosine = motion.cosine * c - motion.sine * s;
     motion.sine = motion.sine * c + motion.cosine * s;

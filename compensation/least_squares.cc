@@ -12,11 +12,14 @@ using Square =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxJoints, kMaxJoints>;
 using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxJoints, 1>;
 
-constexpr double kLongestStep = 0.5;  // rad, or length_m: a start from far away comes in pieces
+constexpr double kLongestStep = 0.5;  // rad: a start from far away comes in pieces
 constexpr double kNothing = 1e-13;    // a step that no encoder sees
 constexpr double kFirstDamping = 1e-6, kMostDamping = 1e6, kLeastDamping = 1e-9;
 // Keeps the normal matrix regular where a joint moves nothing; a step lacks 1e-14 of itself by it.
 constexpr double kRegular = 1e-14;
+constexpr double kRounding = 1e-14;
+constexpr int kGaussNewtons = 6;  // before the whole second derivative is taken
+constexpr double kBeside = 1e-5;  // rad or length_m, of differences of the gradient
 constexpr int kMostDraws = 30;
 
 // One place of the joints: remainder, and its derivative by the free joints without units.
@@ -42,7 +45,7 @@ class Solver {
     bool small = false;
     while (!Reached() && !small && result.iterations < task_.max_iterations) {
       ++result.iterations;
-      const Vector step = Limited(StepOf(damping));
+      const Vector step = Limited(StepOf(damping, result.iterations));
       damping = Try(step) ? Eased(damping) : std::max(10 * damping, kFirstDamping);
       small = IsNothing(step) || damping > kMostDamping;
     }
@@ -118,8 +121,37 @@ class Solver {
     return now_.A.transpose().lazyProduct(y);
   }
 
-  Vector StepOf(double damping) const {
+  // Half the gradient of |W e|^2 at v + shift along joint i; downhill is positive.
+  Vector SlopeBeside(int i, double shift) const {
+    Place beside;
+    beside.v = now_.v;
+    beside.v(i) += shift * unit_(i);
+    Evaluate(&beside);
+    return beside.A.transpose().lazyProduct(beside.weighted);
+  }
+
+  // Newton with the whole second derivative, by differences of the exact gradient: where a
+  // remainder stays, Gauss-Newton creeps along its valley.
+  bool NewtonStep(Vector* step) const {
+    const Eigen::Index n = now_.v.size();
+    Square hessian(n, n);
+    for (int i = 0; i < n; ++i) {
+      if (task_.held[i])
+        hessian.col(i) = Vector::Unit(n, i);
+      else
+        hessian.col(i) = (SlopeBeside(i, -kBeside) - SlopeBeside(i, kBeside)) / (2 * kBeside);
+    }
+    const Square symmetric = 0.5 * (hessian + hessian.transpose());
+    const Eigen::LLT<Square> llt(symmetric);
+    if (llt.info() != Eigen::Success) return false;
+    *step = llt.solve(Vector(now_.A.transpose().lazyProduct(now_.weighted)));
+    return step->allFinite();
+  }
+
+  Vector StepOf(double damping, int iteration) const {
     if (FreeJoints() >= 6) return LeastChange(now_.weighted, damping);
+    Vector newton;
+    if (iteration > kGaussNewtons && damping == 0 && NewtonStep(&newton)) return newton;
     Square normal = now_.A.transpose().lazyProduct(now_.A);
     const double largest = normal.diagonal().maxCoeff();
     for (int i = 0; i < normal.rows(); ++i)
@@ -137,22 +169,27 @@ class Solver {
     return LeastChange(now_.weighted + along, 0) - away;
   }
 
-  static double ShareOf(const Vector& step) {
-    const double largest = step.cwiseAbs().maxCoeff();
+  // Prismatic joints go as far as they are sent: along them the pose is linear.
+  double ShareOf(const Vector& step) const {
+    double largest = 0;
+    for (int i = 0; i < step.size(); ++i)
+      largest = std::max(largest, task_.chain->prismatic[i] ? 0 : std::abs(step(i)));
     return largest > kLongestStep ? kLongestStep / largest : 1;
   }
 
-  static Vector Limited(const Vector& step) { return step * ShareOf(step); }
+  Vector Limited(const Vector& step) const { return step * ShareOf(step); }
   static bool IsNothing(const Vector& step) { return !(step.cwiseAbs().maxCoeff() > kNothing); }
   // Of draws, whose last digits are those of a solution by normal equations.
   static bool IsSettled(const Vector& step) { return step.cwiseAbs().maxCoeff() < 1e-10; }
 
-  // Takes the step when it lowers the remainder.
+  // Takes the step when it lowers the remainder, or leaves it within rounding: near a remainder
+  // that stays, steps contract long after its square has no more digits to say so.
   bool Try(const Vector& step) {
     Place next;
     next.v = now_.v + step.cwiseProduct(unit_);
     Evaluate(&next);
-    if (!(next.weighted.squaredNorm() < now_.weighted.squaredNorm())) return false;
+    if (!(next.weighted.squaredNorm() <= now_.weighted.squaredNorm() * (1 + kRounding)))
+      return false;
     now_ = next;
     return true;
   }

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/geometry/pose.h"
+#include "compensation/arm.h"
 
 namespace truepose::compensation {
 
@@ -12,6 +12,17 @@ inline bool AreFinite(const double* values, int count) noexcept {
     if (!std::isfinite(values[i])) return false;
   }
   return true;
+}
+
+// One to kMaxJoints joints, and both chains of them.
+inline bool IsArm(const Arm& arm) noexcept {
+  return arm.nominal.joints >= 1 && arm.nominal.joints <= kMaxJoints &&
+         arm.identified.joints == arm.nominal.joints;
+}
+
+// Of an arm with as many controller joints.
+inline bool AreJoints(const Arm& arm, const double* q) noexcept {
+  return IsArm(arm) && AreFinite(q, arm.nominal.joints);
 }
 
 // Finite, and R a rotation to 1e-6: what is further off was no rotation to begin with, nearer is

@@ -1,8 +1,6 @@
-#include "core/compensation/compensate.h"
-
-#include <optional>
-
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "compensation/inverse.h"
 #include "convert/calibrated_model.h"
 #include "convert/frames.h"
 #include "convert/report.h"
@@ -11,6 +9,7 @@
 #include "convert/torques.h"
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
+#include "core/compensation/arm_from.h"
 
 namespace truepose::convert {
 namespace {
@@ -33,17 +32,19 @@ absl::Status CheckTargets(const v1::CompensateRequest& request, int joints) {
   return faults.ToStatus();
 }
 
+using compensation::Correction;
+using compensation::ExactOptions;
+using compensation::Outcome;
+
 // Compensates targets of one robot with one tool.
 class Compensator {
  public:
-  Compensator(const Robot& robot, const CalibratedModel& calibrated, const Pose& X_FT,
-              v1::RobotKind kind)
-      : robot_(robot),
-        kind_(kind),
-        model_(calibrated.model),
-        lambda_(calibrated.lambda),
-        nominal_(Eigen::VectorXd::Zero(calibrated.lambda.size())),
-        X_FT_(X_FT) {}
+  Compensator(const Robot& robot, const compensation::Arm& arm, const Pose& X_FT)
+      : robot_(robot), arm_(arm), X_FT_(X_FT) {
+    // Far below any encoder, so that equal targets get equal joints whatever way they came.
+    options_.position_tolerance_m = options_.rotation_tolerance_rad = 1e-13;
+    options_.point_F = X_FT.p;
+  }
 
   v1::CompensatedTarget Run(const v1::CompensationTarget& target) const {
     v1::CompensatedTarget result;
@@ -58,7 +59,7 @@ class Compensator {
 
  private:
   absl::Status Correct(const v1::CompensationTarget& target, v1::CompensatedTarget* result) const {
-    if (kind_ == v1::MEASURING) return RunTip(target, result);
+    if (arm_.measuring) return RunTip(target, result);
     return target.has_pose() ? RunPose(target, result) : RunJoints(target, result);
   }
 
@@ -68,39 +69,39 @@ class Compensator {
       return absl::FailedPreconditionError(
           "a measuring robot can't be sent to a pose: give the joints that were read");
     }
-    const Eigen::VectorXd q = robot_.joint_map().ToChain(JointsOf(target));
-    const Pose X_BT = Forward(model_, q, lambda_) * X_FT_;
+    const double* q = target.joints().data();
+    const Pose X_BT = CorrectedTip(arm_, q, X_FT_, Eigen::Vector3d::UnitZ()).X_BT;
     *result->mutable_pose() = ToProto(X_BT);
-    SetCorrection(X_BT, Forward(model_, q, nominal_) * X_FT_, result);
+    SetCorrection(X_BT, NominalFlange(arm_, q) * X_FT_, result);
     return absl::OkStatus();
   }
 
   absl::Status RunJoints(const v1::CompensationTarget& target,
                          v1::CompensatedTarget* result) const {
-    const Eigen::VectorXd q = robot_.joint_map().ToChain(JointsOf(target));
-    TRUEPOSE_RETURN_IF_ERROR(CheckLimits(JointsOf(target), "target"));
-    return Solve(q, Forward(model_, q, nominal_), result);
+    const double* q = target.joints().data();
+    TRUEPOSE_RETURN_IF_ERROR(CheckLimits(q));
+    return Fill(q, NominalFlange(arm_, q), CorrectJoints(arm_, q, options_), result);
   }
 
   absl::Status RunPose(const v1::CompensationTarget& target, v1::CompensatedTarget* result) const {
     const Pose X_BF = PoseFrom(target.pose()) * Inverse(X_FT_);
-    const Eigen::VectorXd preferred =
-        target.joints_size() > 0 ? JointsOf(target) : robot_.MiddleOfLimits();
-    TRUEPOSE_ASSIGN_OR_RETURN(const Eigen::VectorXd q,
-                              NominalInverse(robot_, model_, X_BF, preferred, {}));
-    return Solve(q, X_BF, result);
+    const Eigen::VectorXd seed =
+        target.joints_size() > 0
+            ? Eigen::Map<const Eigen::VectorXd>(target.joints().data(), target.joints_size())
+            : robot_.MiddleOfLimits();
+    const Correction nominal = NearestBranch(arm_, X_BF, seed.data(), {options_});
+    const Correction solved = CorrectPose(arm_, X_BF, nominal.q.data(), options_);
+    return Fill(nominal.q.data(), X_BF, solved, result);
   }
 
-  // @param q chain joints at which the nominal flange is at X_BF.
-  absl::Status Solve(const Eigen::VectorXd& q, const Pose& X_BF,
-                     v1::CompensatedTarget* result) const {
-    TRUEPOSE_ASSIGN_OR_RETURN(const Compensated solved, SolvePose(model_, lambda_, X_BF, q, {}));
-    const Eigen::VectorXd q_controller = robot_.joint_map().ToController(solved.q);
-    TRUEPOSE_RETURN_IF_ERROR(CheckLimits(q_controller, "compensated"));
-    for (double value : q_controller) result->add_joints(value);
-    *result->mutable_pose() = ToProto(Forward(model_, solved.q, nominal_) * X_FT_);
-    SetCorrection(X_BF * X_FT_, Forward(model_, q, lambda_) * X_FT_, result);
-    result->set_residual_position_mm(solved.position_residual_m * kMmPerM);
+  // @param q_nominal where the nominal flange is at X_BF.
+  absl::Status Fill(const double* q_nominal, const Pose& X_BF, const Correction& solved,
+                    v1::CompensatedTarget* result) const {
+    TRUEPOSE_RETURN_IF_ERROR(CheckOutcome(solved));
+    for (int i = 0; i < robot_.joint_count(); ++i) result->add_joints(solved.q[i]);
+    *result->mutable_pose() = ToProto(NominalFlange(arm_, solved.q.data()) * X_FT_);
+    SetCorrection(X_BF * X_FT_, IdentifiedFlange(arm_, q_nominal) * X_FT_, result);
+    result->set_residual_position_mm(solved.position_error_m * kMmPerM);
     result->set_iterations(solved.iterations);
     return absl::OkStatus();
   }
@@ -112,29 +113,52 @@ class Compensator {
         LogRotation<double>(desired.R * uncompensated.R.transpose()).norm() * kDegPerRad);
   }
 
-  absl::Status CheckLimits(const Eigen::VectorXd& q, const std::string& what) const {
+  // What is wrong, by how much, and what to do.
+  absl::Status CheckOutcome(const Correction& solved) const {
+    const std::string left =
+        absl::StrFormat("%.3g mm and %.3g deg are left", solved.position_error_m * kMmPerM,
+                        solved.rotation_error_rad * kDegPerRad);
+    switch (solved.outcome) {
+      case Outcome::kOk:
+        return absl::OkStatus();
+      case Outcome::kBeyondLimit:
+        return absl::FailedPreconditionError(
+            absl::StrCat("the compensated joint ", LimitsOf(solved.joint), ": at best ", left,
+                         "; move the target away from this limit or choose another configuration"));
+      case Outcome::kNearSingular:
+        return absl::FailedPreconditionError(
+            absl::StrCat("near a singularity (at best ", left,
+                         "): joints would have to move far; move the target or choose another "
+                         "configuration"));
+      default:
+        return absl::FailedPreconditionError(
+            absl::StrCat("out of reach: at best ", left, "; move the target"));
+    }
+  }
+
+  std::string LimitsOf(int i) const {
+    const Joint& joint = robot_.joints()[i];
+    const bool angle = joint.type == JointType::kRevolute;
+    const double scale = angle ? kDegPerRad : kMmPerM;
+    return absl::StrCat(joint.name, " is beyond its limits ", joint.lower * scale, " to ",
+                        joint.upper * scale, angle ? " deg" : " mm");
+  }
+
+  absl::Status CheckLimits(const double* q) const {
     for (int i = 0; i < robot_.joint_count(); ++i) {
       const Joint& joint = robot_.joints()[i];
-      if (q(i) >= joint.lower && q(i) <= joint.upper) continue;
-      const bool angle = joint.type == JointType::kRevolute;
-      const double scale = angle ? kDegPerRad : kMmPerM;
+      if (q[i] >= joint.lower && q[i] <= joint.upper) continue;
+      const double scale = joint.type == JointType::kRevolute ? kDegPerRad : kMmPerM;
       return absl::FailedPreconditionError(
-          absl::StrCat(what, " joint ", joint.name, " at ", q(i) * scale, " is beyond its limits ",
-                       joint.lower * scale, " to ", joint.upper * scale, angle ? " deg" : " mm"));
+          absl::StrCat("the target's ", q[i] * scale, " of joint ", LimitsOf(i)));
     }
     return absl::OkStatus();
   }
 
-  static Eigen::VectorXd JointsOf(const v1::CompensationTarget& target) {
-    return Eigen::Map<const Eigen::VectorXd>(target.joints().data(), target.joints_size());
-  }
-
   const Robot& robot_;
-  const v1::RobotKind kind_;
-  const Model& model_;
-  const Eigen::VectorXd& lambda_;
-  const Eigen::VectorXd nominal_;
+  const compensation::Arm& arm_;
   const Pose X_FT_;
+  ExactOptions options_;
 };
 
 // What its own report says must not be applied does not reach a robot by this way either.
@@ -167,7 +191,10 @@ absl::StatusOr<v1::CompensateResponse> RunCompensation(const v1::Nominal& nomina
   TRUEPOSE_RETURN_IF_ERROR(CheckTorquesOfTargets(calibrated));
   TRUEPOSE_RETURN_IF_ERROR(CheckTargets(request, robot.joint_count()));
   TRUEPOSE_ASSIGN_OR_RETURN(const Pose X_FT, ToolOf(nominal, request.tool()));
-  const Compensator compensator(robot, calibrated, X_FT, nominal.kind());
+  TRUEPOSE_ASSIGN_OR_RETURN(compensation::Arm arm,
+                            ArmFrom(robot, calibrated.model, calibrated.lambda));
+  arm.measuring = nominal.kind() == v1::MEASURING;
+  const Compensator compensator(robot, arm, X_FT);
   v1::CompensateResponse response;
   for (const v1::CompensationTarget& target : request.targets())
     *response.add_targets() = compensator.Run(target);

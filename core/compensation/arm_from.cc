@@ -24,13 +24,11 @@ Eigen::Matrix3d FromZ(Axis axis) {
   return Q;
 }
 
-// @param mu the chain's parameters, none where it has none.
 JointChain JointChainOf(const Chain& chain, const double* mu) {
   JointChain merged;
   Pose X;
   for (const ElementaryTransform& element : chain) {
-    const double constant =
-        element.constant + (element.parameter >= 0 && mu ? mu[element.parameter] : 0);
+    const double constant = element.constant + (element.parameter >= 0 ? mu[element.parameter] : 0);
     Apply(element.motion, element.axis, constant, &X);
     if (element.joint < 0) continue;
     const Eigen::Matrix3d Q = FromZ(element.axis);
@@ -94,7 +92,10 @@ void SetEffects(const Model& model, const Eigen::VectorXd& lambda, Arm* arm) {
 absl::StatusOr<Arm> ArmFrom(const Robot& robot, const Model& model, const Eigen::VectorXd& lambda) {
   TRUEPOSE_RETURN_IF_ERROR(Check(robot, model, lambda));
   Arm arm;
-  arm.nominal = JointChainOf(robot.chain(), nullptr);
+  // The model's chain at zero, and not the robot's, which equals it but for the last bits: so
+  // values of zero correct nothing at all.
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(lambda.size());
+  arm.nominal = JointChainOf(model.chain, ChainParametersOf(model, zero).data());
   arm.identified = JointChainOf(model.chain, ChainParametersOf(model, lambda).data());
   SetJoints(robot, &arm);
   SetEffects(model, lambda, &arm);

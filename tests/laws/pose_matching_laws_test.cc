@@ -3,7 +3,8 @@
 
 #include <Eigen/Dense>
 
-#include "core/compensation/compensate.h"
+#include "compensation/exact.h"
+#include "core/compensation/arm_from.h"
 #include "core/identification/prediction.h"
 #include "core/identification/weights.h"
 #include "core/models/model.h"
@@ -31,9 +32,13 @@ class PoseMatching : public ::testing::Test {
   Eigen::VectorXd Inverse(const Eigen::VectorXd& lambda) const {
     const Pose X_BF =
         truepose::Inverse(estimate_.X_MB[0]) * reading_.X_MT * truepose::Inverse(estimate_.X_FT[0]);
-    const auto solved = SolvePose(model_, lambda, X_BF, reading_.q, {});
-    EXPECT_TRUE(solved.ok()) << solved.status();
-    return solved->q;
+    const auto arm = ArmFrom(testing::Ur10(), model_, lambda);
+    EXPECT_TRUE(arm.ok()) << arm.status();
+    compensation::ExactOptions options;
+    options.position_tolerance_m = options.rotation_tolerance_rad = 1e-14;
+    const auto solved = compensation::CorrectPose(*arm, X_BF, reading_.q.data(), options);
+    EXPECT_LT(solved.position_error_m + solved.rotation_error_rad, 1e-13);
+    return Eigen::Map<const Eigen::VectorXd>(solved.q.data(), 6);
   }
 
   Model model_;
