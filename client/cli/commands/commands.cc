@@ -11,6 +11,8 @@ void AddAllCommands(const Command& root) {
   AddCalibrate(root);
   AddEvaluate(root);
   AddCompensate(root);
+  AddTable(root);
+  AddAccuracyMap(root);
   AddJob(root);
   AddCalibration(root);
   AddDrift(root);
