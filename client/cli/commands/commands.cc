@@ -12,6 +12,7 @@ void AddAllCommands(const Command& root) {
   AddEvaluate(root);
   AddCompensate(root);
   AddTable(root);
+  AddAccuracyMap(root);
   AddJob(root);
   AddCalibration(root);
   AddDrift(root);

@@ -34,6 +34,7 @@ void AddRobotEvent(const Command& root);
 void AddWatch(const Command& root);
 void AddSimulate(const Command& root);
 void AddModel(const Command& root);
+void AddAccuracyMap(const Command& root);
 void AddReproduce(const Command& root);
 void AddVersion(const Command& root);
 
