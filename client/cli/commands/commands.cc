@@ -13,6 +13,7 @@ void AddAllCommands(const Command& root) {
   AddCompensate(root);
   AddProgram(root);
   AddTable(root);
+  AddAccuracyMap(root);
   AddJob(root);
   AddCalibration(root);
   AddDrift(root);

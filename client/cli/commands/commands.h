@@ -35,6 +35,7 @@ void AddWatch(const Command& root);
 void AddSimulate(const Command& root);
 void AddModel(const Command& root);
 void AddProgram(const Command& root);
+void AddAccuracyMap(const Command& root);
 void AddReproduce(const Command& root);
 void AddVersion(const Command& root);
 

@@ -1,82 +1,115 @@
 // truepose table: compensation tables, the form of a calibration that a controller uses.
-#include <memory>
+#include "client/cli/commands/table.h"
 
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 #include "client/cli/commands/commands.h"
 #include "client/cli/commands/table_remote.h"
-#include "client/cli/outcome.h"
+#include "client/cli/names.h"
+#include "client/cli/table.h"
+#include "core/base/fault.h"
 #include "core/base/status_macros.h"
 #include "formats/message_file.h"
 
 namespace truepose::cli {
 namespace {
 
-struct Options {
-  RemoteTable table;
-  std::string spec;
-};
-
-absl::Status ReadSpec(Options& options) {
-  if (options.spec.empty()) return absl::OkStatus();
-  options.table.has_spec = true;
-  formats::GivenFields given;
-  return AsInputFault(formats::ReadMessageFile(options.spec, options.table.spec, given));
-}
-
-const Command& AddSources(const Command& command, Options* options) {
-  return command
-      .Option("--robot", "NAME", &options->table.robot, "Such as ur10: its active calibration")
-      .Option("--calibration", "NAME", &options->table.calibration, "Such as ur10#3")
-      .Option("--spec", "FILE", &options->spec,
-              "Domain and tolerances as YAML or JSON; default: the robot's table_spec")
-      .Option("--allow-draft", "", &options->table.allow_draft,
-              "Also of a calibration that nobody has approved, for trying it");
-}
-
-void AddEstimate(const Command& group) {
-  const auto options = std::make_shared<Options>();
-  const Command command =
-      group.Add("estimate", "Nodes, size and error of a table, without building it");
-  AddSources(command, options.get())
-      .Footer("Example:\n  truepose table estimate --robot ur10 --spec cell.yaml")
-      .Run(Command::Reach::kRemote, [options](const Invocation& invocation) -> absl::Status {
-        TRUEPOSE_RETURN_IF_ERROR(ReadSpec(*options));
-        return EstimateTableOnServer(invocation, options->table);
-      });
-}
-
-void AddBuild(const Command& group) {
-  const auto options = std::make_shared<Options>();
-  const Command command = group.Add("build", "Build and verify a table");
-  AddSources(command, options.get())
-      .Option("--no-wait", "", &options->table.no_wait, "Only queue the job")
-      .Option("-o,--output", "FILE", &options->table.output, "Also fetch the table")
-      .Footer(
-          "Examples:\n  truepose table build --robot ur10 --output ur10.tpct\n"
-          "  truepose table build --calibration ur10#3 --spec cell.yaml")
-      .Run(Command::Reach::kRemote, [options](const Invocation& invocation) -> absl::Status {
-        TRUEPOSE_RETURN_IF_ERROR(ReadSpec(*options));
-        return BuildTableOnServer(invocation, options->table);
-      });
-}
-
-void AddShow(const Command& group) {
-  const auto name = std::make_shared<std::string>();
-  group.Add("show", "What a table is for, and how well it was verified")
-      .Required("TABLE", "", name.get(),
-                "ROBOT/UUID as of `table list`; a robot's name is its active table")
-      .Footer("Examples:\n  truepose table show ur10\n  truepose table show ur10 --json")
-      .Run(Command::Reach::kRemote,
-           [name](const Invocation& invocation) { return ShowTableOnServer(invocation, *name); });
+absl::StatusOr<std::vector<std::pair<std::string, std::string>>> SplitSets(
+    const std::vector<std::string>& sets) {
+  std::vector<std::pair<std::string, std::string>> fields;
+  FaultList faults;
+  for (const std::string& set : sets) {
+    const size_t equals = set.find('=');
+    if (equals == std::string::npos)
+      faults.Add("--set", absl::StrCat("'", set, "'"), "KEY=VALUE");
+    else
+      fields.emplace_back(set.substr(0, equals), set.substr(equals + 1));
+  }
+  if (!faults.empty()) return faults.ToStatus();
+  return fields;
 }
 
 }  // namespace
 
+const char kTableSpecHelp[] =
+    "Keys of --spec and --set, each with its default: position_tolerance_mm 0.02,\n"
+    "rotation_tolerance_deg 0.005, smallest_singular_value 0.05, verification_points 10000,\n"
+    "largest_bytes 67108864, seed 0; and one domain, else the robot's joint limits:\n"
+    "joint_ranges.joints, a list of {lower, upper} in rad or m, or box with min_x_mm, max_x_mm\n"
+    "and so on, tool, approach_x, approach_y, approach_z, cone_deg, reference_joints (rad, m),\n"
+    "min_roll_deg, max_roll_deg. Lists only in the file.\n";
+
+void AddTableSpecOptions(const Command& command, TableOptions* options) {
+  command
+      .Option("--spec", "FILE", &options->spec,
+              "Domain and tolerances as YAML or JSON (docs/compensation.md)")
+      .Option("--set", "KEY=VALUE", &options->set, "Fields one by one, over those of the file");
+}
+
+absl::StatusOr<v1::CompensationTableSpec> LoadTableSpec(const TableOptions& options) {
+  v1::CompensationTableSpec spec;
+  formats::GivenFields given;
+  if (!options.spec.empty()) {
+    const absl::Status read = formats::ReadMessageFile(options.spec, spec, given);
+    if (!read.ok()) return AsInputFault(read);
+  }
+  TRUEPOSE_ASSIGN_OR_RETURN(const auto fields, SplitSets(options.set));
+  TRUEPOSE_RETURN_IF_ERROR(formats::SetMessageFields(fields, "--set", spec, given));
+  return spec;
+}
+
+absl::StatusOr<v1::CompensationTableInput> LoadTableInput(const TableOptions& options) {
+  if (options.robot.empty()) return UsageError("--local needs --robot FILE");
+  if (options.calibration.empty()) return UsageError("--local needs --calibration FILE");
+  TRUEPOSE_ASSIGN_OR_RETURN(const formats::RobotFile robot, LoadRobot(options.robot, options.ends));
+  TRUEPOSE_ASSIGN_OR_RETURN(v1::Calibration calibration, LoadCalibration(options.calibration));
+  TRUEPOSE_RETURN_IF_ERROR(CheckBelongsTogether(calibration, robot.nominal, options.robot));
+  v1::CompensationTableInput input;
+  TRUEPOSE_ASSIGN_OR_RETURN(*input.mutable_spec(), LoadTableSpec(options));
+  input.set_robot(RobotName(robot.robot_id));
+  *input.mutable_nominal() = robot.nominal;
+  *input.mutable_calibration() = std::move(calibration);
+  return input;
+}
+
+const Renaming& TableFields() {
+  static const Renaming kFields = {{"calibration.", "--calibration: "},
+                                   {"joint_ranges", "--spec: joint_ranges"},
+                                   {"box", "--spec: box"},
+                                   {"position_tolerance_m", "--spec: position_tolerance_m"},
+                                   {"rotation_tolerance_rad", "--spec: rotation_tolerance_rad"},
+                                   {"smallest_singular_value", "--spec: smallest_singular_value"},
+                                   {"verification_points", "--spec: verification_points"},
+                                   {"largest_bytes", "--spec: largest_bytes"},
+                                   {"points", "--points"}};
+  return kFields;
+}
+
+absl::StatusOr<compensation::TableFile> LoadTable(const std::string& path) {
+  compensation::TableFile file;
+  const compensation::TableReport report = compensation::TableFile::Map(path.c_str(), {}, &file);
+  if (report.ok()) return file;
+  return FaultStatus(path,
+                     absl::StrCat(compensation::Name(report.fault), ": ", report.message.data()),
+                     "a table that `truepose table build` wrote, as it was written");
+}
+
+std::string EstimateText(const v1::CompensationTableEstimate& estimate) {
+  return absl::StrCat(absl::StrJoin(estimate.nodes(), " x "), " nodes, ",
+                      Fixed(static_cast<double>(estimate.size_bytes()) / (1 << 20), 2),
+                      " MB; worst error estimated ", Fixed(1e3 * estimate.position_m(), 4), " mm, ",
+                      Fixed(estimate.rotation_rad() * 57.29577951308232, 5), " deg\n");
+}
+
 void AddTable(const Command& root) {
-  const Command table = root.Add("table", "Build, look at and fetch compensation tables");
-  table.Footer("Example:\n  truepose table list --robot ur10");
-  AddEstimate(table);
-  AddBuild(table);
-  AddShow(table);
+  const Command table = root.Add("table", "Build, look at and check compensation tables");
+  AddTableEstimate(table);
+  AddTableBuild(table);
+  AddTableShow(table);
+  AddTableVerify(table);
+  AddTableExport(table);
   AddTableOnServer(table);
 }
 
