@@ -75,6 +75,7 @@ Client::Impl::Impl(std::shared_ptr<grpc::Channel> connection, std::string server
       robots(v1::RobotService::NewStub(channel)),
       sessions(v1::SessionService::NewStub(channel)),
       calibrations(v1::CalibrationService::NewStub(channel)),
+      tables(v1::CompensationTableService::NewStub(channel)),
       admin(v1::AdminService::NewStub(channel)),
       recalibrations(v1::RecalibrationService::NewStub(channel)),
       downloads(v1::DownloadService::NewStub(channel)),
@@ -104,6 +105,8 @@ const std::string& Client::address() const { return impl_->address; }
   TRUEPOSE_CALL(AdminService, admin, Method, Method##Request, Response, 1)
 #define TRUEPOSE_CALIBRATION_CALL(Method, Response, factor) \
   TRUEPOSE_CALL(CalibrationService, calibrations, Method, Method##Request, Response, factor)
+#define TRUEPOSE_TABLE_CALL(Method, Response, factor) \
+  TRUEPOSE_CALL(CompensationTableService, tables, Method, Method##Request, Response, factor)
 #define TRUEPOSE_RECALIBRATION_CALL(Method, Response, factor) \
   TRUEPOSE_CALL(RecalibrationService, recalibrations, Method, Method##Request, Response, factor)
 
@@ -131,6 +134,12 @@ TRUEPOSE_CALIBRATION_CALL(RollBackCalibration, Calibration, 1)
 TRUEPOSE_CALIBRATION_CALL(CompareCalibrations, CompareCalibrationsResponse, kComputeFactor)
 TRUEPOSE_CALIBRATION_CALL(Evaluate, Evaluation, kComputeFactor)
 TRUEPOSE_CALIBRATION_CALL(Compensate, CompensateResponse, kComputeFactor)
+TRUEPOSE_TABLE_CALL(CreateCompensationTable, CompensationTable, kComputeFactor)
+TRUEPOSE_TABLE_CALL(GetCompensationTable, CompensationTable, 1)
+TRUEPOSE_TABLE_CALL(GetActiveCompensationTable, CompensationTable, 1)
+TRUEPOSE_TABLE_CALL(ListCompensationTables, ListCompensationTablesResponse, 1)
+TRUEPOSE_TABLE_CALL(DeleteCompensationTable, CompensationTable, 1)
+TRUEPOSE_TABLE_CALL(UndeleteCompensationTable, CompensationTable, 1)
 TRUEPOSE_ADMIN_CALL(Bootstrap, CreateTokenResponse)
 TRUEPOSE_ADMIN_CALL(CreateToken, CreateTokenResponse)
 TRUEPOSE_ADMIN_CALL(ListTokens, ListTokensResponse)

@@ -22,6 +22,7 @@
 #include "google/protobuf/message.h"
 #include "truepose/v1/admin_services.pb.h"
 #include "truepose/v1/calibration.pb.h"
+#include "truepose/v1/compensation_table_services.pb.h"
 #include "truepose/v1/download_services.pb.h"
 #include "truepose/v1/recalibration_services.pb.h"
 #include "truepose/v1/robot.pb.h"
@@ -38,8 +39,8 @@ namespace truepose::client {
 class AppendStream;
 
 struct ClientOptions {
-  // Of one call, its repeats included. Evaluate and Compensate compute on the server and get ten
-  // times as long.
+  // Of one call, its repeats included. What computes on the server, such as Evaluate, Compensate
+  // and the estimate of a table, gets ten times as long.
   std::chrono::milliseconds call_timeout{30'000};
   // The secret of the caller's token (token_file.h), sent with every call and said in no message;
   // "" = none.
@@ -102,6 +103,20 @@ class Client {
       const v1::CompareCalibrationsRequest& request) const;
   absl::StatusOr<v1::Evaluation> Evaluate(const v1::EvaluateRequest& request) const;
   absl::StatusOr<v1::CompensateResponse> Compensate(const v1::CompensateRequest& request) const;
+
+  absl::StatusOr<v1::CompensationTable> CreateCompensationTable(
+      const v1::CreateCompensationTableRequest& request) const;
+  absl::StatusOr<v1::CompensationTable> GetCompensationTable(
+      const v1::GetCompensationTableRequest& request) const;
+  // The one to apply; kNotFound says why there is none.
+  absl::StatusOr<v1::CompensationTable> GetActiveCompensationTable(
+      const v1::GetActiveCompensationTableRequest& request) const;
+  absl::StatusOr<v1::ListCompensationTablesResponse> ListCompensationTables(
+      const v1::ListCompensationTablesRequest& request) const;
+  absl::StatusOr<v1::CompensationTable> DeleteCompensationTable(
+      const v1::DeleteCompensationTableRequest& request) const;
+  absl::StatusOr<v1::CompensationTable> UndeleteCompensationTable(
+      const v1::UndeleteCompensationTableRequest& request) const;
 
   absl::StatusOr<v1::CreateTokenResponse> Bootstrap(const v1::BootstrapRequest& request) const;
   absl::StatusOr<v1::CreateTokenResponse> CreateToken(const v1::CreateTokenRequest& request) const;

@@ -8,6 +8,7 @@
 #include "grpcpp/channel.h"
 #include "grpcpp/client_context.h"
 #include "truepose/v1/admin_services.grpc.pb.h"
+#include "truepose/v1/compensation_table_services.grpc.pb.h"
 #include "truepose/v1/download_services.grpc.pb.h"
 #include "truepose/v1/recalibration_services.grpc.pb.h"
 #include "truepose/v1/services.grpc.pb.h"
@@ -24,6 +25,7 @@ struct Client::Impl {
   std::unique_ptr<v1::RobotService::Stub> robots;
   std::unique_ptr<v1::SessionService::Stub> sessions;
   std::unique_ptr<v1::CalibrationService::Stub> calibrations;
+  std::unique_ptr<v1::CompensationTableService::Stub> tables;
   std::unique_ptr<v1::AdminService::Stub> admin;
   std::unique_ptr<v1::RecalibrationService::Stub> recalibrations;
   std::unique_ptr<v1::DownloadService::Stub> downloads;

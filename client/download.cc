@@ -49,7 +49,7 @@ absl::Status GoOn(const Client& client, const std::string& name, const DownloadO
   v1::DownloadRequest request;
   request.set_name(name);
   request.set_offset(received.size());
-  request.set_sha256(received.sha256);
+  request.set_sha256(received.sha256.empty() ? options.sha256 : received.sha256);
   absl::Status taken;
   const absl::Status status = client.ReadDownload(request, [&](const auto& response) {
     heard = Clock::now();

@@ -28,6 +28,7 @@ const std::vector<Repeatable>& RepeatableCalls() {
         "GetCalibration", "ListCalibrations", "ApproveCalibration", "RejectCalibration",
         "ActivateCalibration", "RollBackCalibration", "Evaluate", "Compensate",
         "CompareCalibrations"}},
+      {"truepose.v1.CompensationTableService", {}},
       {"truepose.v1.RecalibrationService", {}},
       // A new token is shown once, so a repeat would make another one.
       {"truepose.v1.AdminService", {"ListTokens", "RevokeToken", "GetServerStatus"}},

@@ -44,6 +44,7 @@ class Value {
         return StoreDouble(message);
       case FieldDescriptor::CPPTYPE_INT32:
       case FieldDescriptor::CPPTYPE_INT64:
+      case FieldDescriptor::CPPTYPE_UINT64:
         return StoreInteger(message);
       case FieldDescriptor::CPPTYPE_BOOL:
         return StoreBool(message);
@@ -80,7 +81,10 @@ class Value {
     // A double tells whole numbers apart up to here.
     const double most = is_short ? std::numeric_limits<int32_t>::max() : 9007199254740992.0;
     if (std::trunc(*number) != *number || std::abs(*number) > most) return Fault("a whole number");
+    const bool is_unsigned = field_.cpp_type() == FieldDescriptor::CPPTYPE_UINT64;
+    if (is_unsigned && *number < 0.0) return Fault("a whole number, 0 or more");
     const auto value = static_cast<int64_t>(*number);
+    if (is_unsigned) return Of(message).SetUInt64(&message, &field_, static_cast<uint64_t>(value));
     if (is_short) return Of(message).SetInt32(&message, &field_, static_cast<int32_t>(value));
     Of(message).SetInt64(&message, &field_, value);
   }

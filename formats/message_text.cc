@@ -55,6 +55,8 @@ std::string NumberText(const Message& message, const FieldDescriptor& field) {
       return StrCat(reflection->GetInt32(message, &field));
     case FieldDescriptor::CPPTYPE_INT64:
       return StrCat(reflection->GetInt64(message, &field));
+    case FieldDescriptor::CPPTYPE_UINT64:
+      return StrCat(reflection->GetUInt64(message, &field));
     case FieldDescriptor::CPPTYPE_BOOL:
       return reflection->GetBool(message, &field) ? "true" : "false";
     case FieldDescriptor::CPPTYPE_ENUM:

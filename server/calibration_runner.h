@@ -1,4 +1,4 @@
-// The runner of real jobs: convert::RunCalibration with its provenance.
+// The runners of real jobs: convert::RunCalibration with its provenance, convert::RunTableBuild.
 #pragma once
 
 #include "server/jobs/runner.h"
@@ -6,5 +6,8 @@
 namespace truepose::server {
 
 jobs::Runner CalibrationRunner();
+
+// All that trueposed does: the same, and tables with their estimates.
+jobs::Runners RealRunners();
 
 }  // namespace truepose::server

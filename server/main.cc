@@ -65,7 +65,7 @@ int Run(const CommandLine& line) {
   const sigset_t signals = BlockStopSignals();
   // One that a killed server left behind would send clients to where nobody is.
   if (!line.ready_file.empty()) std::remove(line.ready_file.c_str());
-  auto server = Server::Start(line.server, CalibrationRunner());
+  auto server = Server::Start(line.server, RealRunners());
   if (!server.ok())
     return Fail(ToExitCode(server.status()), std::string(server.status().message()));
   if (!line.ready_file.empty() && !WriteReadyFile(line.ready_file, (*server)->address())) {

@@ -20,6 +20,7 @@
 #include "server/services/bindings/bindings.h"
 #include "server/services/recalibration_job.h"
 #include "server/services/release.h"
+#include "server/services/table_jobs.h"
 #include "server/store/store.h"
 #include "server/time_zone.h"
 #include "server/watch/wake_hub.h"
@@ -36,11 +37,16 @@ std::string ToGrpc(const ListenAddress& address) {
   return absl::StrCat(address.host == "localhost" ? "127.0.0.1" : address.host, ":", address.port);
 }
 
+absl::Status OnEnd(store::Transaction& transaction, const v1::CalibrationJob& job) {
+  TRUEPOSE_RETURN_IF_ERROR(services::EndTableJob(transaction, job));
+  return services::MoveRequestOfJob(transaction, job);
+}
+
 jobs::EngineOptions ToEngineOptions(const ServerOptions& options) {
   jobs::EngineOptions engine;
   engine.workers = options.workers;
   engine.with_result = services::ReleaseWithinLimits;
-  engine.on_end = services::MoveRequestOfJob;
+  engine.on_end = OnEnd;
   return engine;
 }
 
@@ -87,11 +93,11 @@ absl::StatusOr<Access> OpenAccess(const ServerOptions& options, store::Store& st
 // Members are destroyed in reverse: the listener first, the store last.
 struct Server::Parts {
   Parts(const ServerOptions& server_options, std::unique_ptr<store::Store> opened,
-        Access opened_access, jobs::Runner runner)
+        Access opened_access, jobs::Runners runners)
       : options(server_options),
         store(std::move(opened)),
         access(std::move(opened_access)),
-        engine(*store, std::move(runner), ToEngineOptions(options), store->clock()),
+        engine(*store, std::move(runners), ToEngineOptions(options), store->clock()),
         scheduler(ScheduledTasks(*store), options.schedule, store->clock(), rpc::LogError),
         handlers(options.handler_threads, kMostWaitingCalls),
         compute(options.compute_threads, kMostWaitingCalls),
@@ -117,7 +123,7 @@ struct Server::Parts {
 };
 
 absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerOptions& options,
-                                                      jobs::Runner runner) {
+                                                      jobs::Runners runners) {
   TRUEPOSE_RETURN_IF_ERROR(options.Validate());
   TRUEPOSE_ASSIGN_OR_RETURN(const ListenAddress address, ParseListenAddress(options.listen));
   TRUEPOSE_RETURN_IF_ERROR(CheckFree(address));
@@ -125,7 +131,7 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(const ServerOptions& optio
                             store::Store::Open({.path = options.database, .clock = options.clock}));
   TRUEPOSE_ASSIGN_OR_RETURN(Access access, OpenAccess(options, *store));
   auto parts =
-      std::make_unique<Parts>(options, std::move(store), std::move(access), std::move(runner));
+      std::make_unique<Parts>(options, std::move(store), std::move(access), std::move(runners));
   TRUEPOSE_RETURN_IF_ERROR(parts->engine.Start());
   parts->scheduler.Start();
   TRUEPOSE_ASSIGN_OR_RETURN(parts->listener,

@@ -20,12 +20,12 @@ namespace truepose::server {
 class Server {
  public:
   // Serves when it returns. Jobs that an earlier server left behind are taken up.
-  // @param runner what jobs run; calibration_runner.h makes the real one.
+  // @param runners what jobs run; calibration_runner.h makes the real ones.
   // @returns kInvalidArgument for options; kUnavailable when the address is taken; the store's
   // status when the database
   //   can't be used (server/store/store.h). On failure nothing is left behind.
   static absl::StatusOr<std::unique_ptr<Server>> Start(const ServerOptions& options,
-                                                       jobs::Runner runner);
+                                                       jobs::Runners runners);
   // Stop().
   ~Server();
 

@@ -15,6 +15,7 @@ constexpr char kPlantService[] = "truepose.v1.PlantService";
 constexpr char kDownloadService[] = "truepose.v1.DownloadService";
 constexpr char kWatchService[] = "truepose.v1.WatchService";
 constexpr char kRecalibrationService[] = "truepose.v1.RecalibrationService";
+constexpr char kCompensationTableService[] = "truepose.v1.CompensationTableService";
 constexpr char kAdminService[] = "truepose.v1.AdminService";
 
 constexpr AccessRow kTable[] = {
@@ -88,6 +89,12 @@ constexpr AccessRow kTable[] = {
     {kPlantService, "UndeletePoseSet", kToken},
     {kDownloadService, "Download", kToken},
     {kWatchService, "Watch", kToken},
+    {kCompensationTableService, "CreateCompensationTable", kToken},
+    {kCompensationTableService, "GetCompensationTable", kToken},
+    {kCompensationTableService, "GetActiveCompensationTable", kToken},
+    {kCompensationTableService, "ListCompensationTables", kToken},
+    {kCompensationTableService, "DeleteCompensationTable", kToken},
+    {kCompensationTableService, "UndeleteCompensationTable", kToken},
     {kRecalibrationService, "CreateRobotEvent", kToken},
     {kRecalibrationService, "GetRobotEvent", kToken},
     {kRecalibrationService, "ListRobotEvents", kToken},

@@ -39,12 +39,12 @@ absl::Status EngineOptions::Validate() const {
 
 class JobEngine::State {
  public:
-  State(store::Store& store, Runner runner, EngineOptions options, const store::Clock& clock)
+  State(store::Store& store, Runners runners, EngineOptions options, const store::Clock& clock)
       : store_(store),
-        runner_(std::move(runner)),
+        runners_(std::move(runners)),
         options_(std::move(options)),
         context_{store_,
-                 runner_,
+                 runners_,
                  options_,
                  clock,
                  signal_,
@@ -89,13 +89,13 @@ class JobEngine::State {
 
   absl::StatusOr<v1::CalibrationJob> Cancel(const std::string& name, const Within& within) {
     context_.At("before_cancel");
-    TRUEPOSE_ASSIGN_OR_RETURN(
-        const v1::CalibrationJob job, store_.Write([&](Transaction& transaction) {
-          const Effect cancel = [&] { return CancelOne(transaction, name); };
-          auto asked = within ? within(transaction, cancel) : cancel();
-          context_.At("cancel_written");
-          return asked;
-        }));
+    TRUEPOSE_ASSIGN_OR_RETURN(const v1::CalibrationJob job,
+                              store_.Write([&](Transaction& transaction) {
+                                const Effect cancel = [&] { return CancelOne(transaction, name); };
+                                auto asked = within ? within(transaction, cancel) : cancel();
+                                context_.At("cancel_written");
+                                return asked;
+                              }));
     context_.At("after_cancel");
     // After the commit: a worker that began meanwhile finds the request in the store.
     if (const std::shared_ptr<RunningJob> running = running_.Find(name)) running->AskToEnd();
@@ -114,6 +114,12 @@ class JobEngine::State {
       *one.mutable_progress() = std::move(progress);
     }
     return told;
+  }
+
+  absl::StatusOr<v1::CompensationTableEstimate> EstimateTable(
+      const v1::CompensationTableInput& input) const {
+    if (runners_.estimate_table) return runners_.estimate_table(input);
+    return absl::UnimplementedError("this server builds no compensation tables");
   }
 
   absl::StatusOr<std::unique_ptr<Subscription>> Watch(const std::string& name,
@@ -164,7 +170,7 @@ class JobEngine::State {
   }
 
   store::Store& store_;
-  const Runner runner_;
+  const Runners runners_;
   const EngineOptions options_;
   StopSignal signal_;
   RunningJobs running_;
@@ -178,9 +184,9 @@ class JobEngine::State {
   std::thread sweeping_;
 };
 
-JobEngine::JobEngine(store::Store& store, Runner runner, EngineOptions options,
+JobEngine::JobEngine(store::Store& store, Runners runners, EngineOptions options,
                      const store::Clock& clock)
-    : state_(std::make_unique<State>(store, std::move(runner), std::move(options), clock)) {}
+    : state_(std::make_unique<State>(store, std::move(runners), std::move(options), clock)) {}
 
 JobEngine::~JobEngine() { Stop(); }
 
@@ -201,6 +207,11 @@ absl::StatusOr<v1::CalibrationJob> JobEngine::Cancel(const std::string& name,
 
 std::vector<v1::WatchedProgress> JobEngine::Progress(std::string_view robot) const {
   return state_->Progress(robot);
+}
+
+absl::StatusOr<v1::CompensationTableEstimate> JobEngine::EstimateTable(
+    const v1::CompensationTableInput& input) const {
+  return state_->EstimateTable(input);
 }
 
 absl::StatusOr<std::unique_ptr<Subscription>> JobEngine::Watch(const std::string& name,

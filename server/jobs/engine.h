@@ -1,9 +1,10 @@
-// Runs calibration jobs on worker threads.
+// Runs jobs on worker threads: calibrations, and compensation tables.
 //
 // A worker claims the PENDING job whose turn it is (the highest priority, then the order of
 // creation, one RUNNING job a robot) in one commit: RUNNING, attempts + 1, a lease. It loads the
-// frozen input, runs it and writes the end in one commit: calibration + SUCCEEDED, or FAILED, or
-// CANCELLED. Only the holder of the lease may end a job, so nothing runs to SUCCEEDED twice.
+// frozen input, runs it and writes the end in one commit: calibration or table + SUCCEEDED, or
+// FAILED, or CANCELLED. Only the holder of the lease may end a job, so nothing runs to SUCCEEDED
+// twice.
 //
 // A lease is renewed by every call of the runner's hooks. A worker that calls none for `lease`
 // loses it: the job is put back, another thread takes the worker's place, and what the silent one
@@ -41,9 +42,9 @@ struct EngineOptions {
   absl::Duration store_retry =
       absl::Seconds(1);  // pause before a refused write (full disk) is tried again
 
-  // Called in the transaction that makes a job SUCCEEDED, with its calibration: what has to happen
-  // with the result in the same commit. An error fails the job. May be empty; may run more than
-  // once, as every closure.
+  // Called in the transaction that makes a calibrating job SUCCEEDED, with its calibration: what
+  // has to happen with the result in the same commit. An error fails the job. May be empty; may run
+  // more than once, as every closure.
   std::function<absl::Status(store::Transaction&, const v1::Calibration&)> with_result;
 
   // Called in the transaction that ends a job, whoever ends it: SUCCEEDED (after with_result),
@@ -66,7 +67,7 @@ struct EngineOptions {
 class JobEngine {
  public:
   // Store and clock outlive the engine. Nothing runs before Start().
-  JobEngine(store::Store& store, Runner runner, EngineOptions options,
+  JobEngine(store::Store& store, Runners runners, EngineOptions options,
             const store::Clock& clock = store::RealClock());
   // Stop().
   ~JobEngine();
@@ -94,6 +95,10 @@ class JobEngine {
   absl::StatusOr<v1::CalibrationJob> Cancel(const std::string& name, const Within& within = {});
   // Of the jobs that run now and have told any; `robot` = "" for all robots. In memory only.
   std::vector<v1::WatchedProgress> Progress(std::string_view robot) const;
+  // What a table would be (Runners::estimate_table), in the calling thread. @returns kUnimplemented
+  // without one.
+  absl::StatusOr<v1::CompensationTableEstimate> EstimateTable(
+      const v1::CompensationTableInput& input) const;
   // @returns kNotFound; kUnavailable after Stop().
   absl::StatusOr<std::unique_ptr<Subscription>> Watch(const std::string& name,
                                                       WatchCallbacks callbacks);

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <exception>
 #include <utility>
+#include <variant>
 
 #include "core/base/status_macros.h"
 #include "server/jobs/time_left.h"
+#include "server/store/checksum.h"
 
 namespace truepose::jobs {
 namespace {
@@ -13,14 +15,14 @@ namespace {
 using store::Snapshot;
 
 Outcome Failure(absl::Status error) {
-  return {.kind = Outcome::Kind::kError, .calibration = {}, .error = std::move(error)};
+  return {.kind = Outcome::Kind::kError, .error = std::move(error)};
 }
 
-Outcome Ended(Outcome::Kind kind) { return {.kind = kind, .calibration = {}, .error = {}}; }
+Outcome Ended(Outcome::Kind kind) { return {.kind = kind}; }
 
 // The input, and whether the job was asked to end before this worker could be told so.
 struct Loaded {
-  v1::CalibrationInput input;
+  std::variant<v1::CalibrationInput, v1::CompensationTableInput> input;
   bool cancel_requested = false;
 };
 
@@ -29,10 +31,34 @@ absl::StatusOr<Loaded> Load(const WorkerContext& context, const std::string& nam
     context.At("in_load");
     Loaded loaded;
     TRUEPOSE_ASSIGN_OR_RETURN(const v1::CalibrationJob job, store::GetJob(snapshot, name));
-    TRUEPOSE_ASSIGN_OR_RETURN(loaded.input, store::LoadJobInput(snapshot, job));
+    if (job.compensation_table().empty()) {
+      TRUEPOSE_ASSIGN_OR_RETURN(loaded.input, store::LoadJobInput(snapshot, job));
+    } else {
+      TRUEPOSE_ASSIGN_OR_RETURN(loaded.input, store::LoadTableInput(snapshot, job));
+    }
     loaded.cancel_requested = job.cancel_requested();
     return loaded;
   });
+}
+
+absl::StatusOr<Outcome> Calibrate(const Runners& runners, const v1::CalibrationInput& input,
+                                  const RunnerHooks& hooks) {
+  if (!runners.calibrate) return absl::UnimplementedError("this server does not calibrate");
+  Outcome outcome{.kind = Outcome::Kind::kResult};
+  TRUEPOSE_ASSIGN_OR_RETURN(outcome.calibration, runners.calibrate(input, hooks));
+  return outcome;
+}
+
+// The digest is computed here: in the transaction it would hold up the writer.
+absl::StatusOr<Outcome> BuildTable(const Runners& runners, const v1::CompensationTableInput& input,
+                                   const RunnerHooks& hooks) {
+  if (!runners.build_table)
+    return absl::UnimplementedError("this server builds no compensation tables");
+  TRUEPOSE_ASSIGN_OR_RETURN(BuiltTable built, runners.build_table(input, hooks));
+  std::string sha256 = store::Sha256Hex(built.bytes);
+  Outcome outcome{.kind = Outcome::Kind::kResult};
+  outcome.table = {std::move(built.bytes), std::move(sha256), std::move(built.header)};
+  return outcome;
 }
 
 // When a run has to have ended, in monotonic time, and what is said when it hasn't.
@@ -68,7 +94,7 @@ class Execution {
     if (!loaded.ok()) return Failure(loaded.status());
     if (loaded->cancel_requested) running_.AskToEnd();
     context_.At("after_load");
-    return OutcomeOf(CallRunner(loaded->input));
+    return OutcomeOf(CallRunner(*loaded));
   }
 
  private:
@@ -89,7 +115,7 @@ class Execution {
     context_.At("in_run");
   }
 
-  absl::StatusOr<v1::Calibration> CallRunner(const v1::CalibrationInput& input) {
+  absl::StatusOr<Outcome> CallRunner(const Loaded& loaded) {
     const RunnerHooks hooks{
         .on_progress = [this](const v1::JobProgress& progress) { Tell(progress); },
         .is_cancelled = [this] { return IsToEnd(); }};
@@ -97,20 +123,23 @@ class Execution {
     try {
       if (IsToEnd()) return absl::CancelledError("asked to end before it began");
       context_.At("before_run");
-      absl::StatusOr<v1::Calibration> result = context_.runner(input, hooks);
+      const auto* table = std::get_if<v1::CompensationTableInput>(&loaded.input);
+      absl::StatusOr<Outcome> result =
+          table != nullptr
+              ? BuildTable(context_.runners, *table, hooks)
+              : Calibrate(context_.runners, std::get<v1::CalibrationInput>(loaded.input), hooks);
       context_.At("after_run");
       return result;
     } catch (const std::exception& exception) {
       return absl::InternalError(
-          absl::StrCat("the calibration ended with an exception: ", exception.what()));
+          absl::StrCat("the run ended with an exception: ", exception.what()));
     }
   }
 
-  Outcome OutcomeOf(absl::StatusOr<v1::Calibration> result) const {
+  Outcome OutcomeOf(absl::StatusOr<Outcome> result) const {
     if (running_.IsAskedToEnd()) return Ended(Outcome::Kind::kCancelled);
     if (IsLate()) return Failure(absl::DeadlineExceededError(limit_.reason));
-    if (result.ok())
-      return {.kind = Outcome::Kind::kResult, .calibration = *std::move(result), .error = {}};
+    if (result.ok()) return *std::move(result);
     const bool stopped = absl::IsCancelled(result.status()) && context_.signal.IsStopping();
     return stopped ? Ended(Outcome::Kind::kStopped) : Failure(result.status());
   }

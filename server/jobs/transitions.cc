@@ -24,23 +24,25 @@ absl::Status ChangeState(Transaction& transaction, v1::CalibrationJob& job, v1::
 }
 
 absl::Status Fail(Transaction& transaction, v1::CalibrationJob& job, const absl::Status& error) {
-  v1::JobError& told = *job.mutable_error();
-  told.set_code(error.raw_code());
-  told.set_message(std::string(error.message()));
-  for (const Fault& fault : FaultsOf(error)) {
-    v1::Fault& one = *told.add_faults();
-    one.set_field(fault.field);
-    one.set_found(fault.found);
-    one.set_expected(fault.expected);
-  }
+  *job.mutable_error() = ToJobError(error);
   return ChangeState(transaction, job, v1::FAILED, kNobody);
 }
 
-absl::Status Succeed(Transaction& transaction, v1::CalibrationJob& job,
-                     const v1::Calibration& calibration) {
-  TRUEPOSE_ASSIGN_OR_RETURN(const v1::Calibration stored,
-                            store::InsertCalibration(transaction, job, calibration));
-  job.set_calibration(stored.name());
+// Stores what the job was for. @returns the calibration that it is about.
+absl::StatusOr<std::string> StoreResult(Transaction& transaction, const v1::CalibrationJob& job,
+                                        const Outcome& outcome) {
+  if (outcome.table.has_value()) {
+    TRUEPOSE_ASSIGN_OR_RETURN(const v1::CompensationTable table,
+                              store::FinishTable(transaction, job, *outcome.table));
+    return table.calibration();
+  }
+  TRUEPOSE_ASSIGN_OR_RETURN(const v1::Calibration calibration,
+                            store::InsertCalibration(transaction, job, outcome.calibration));
+  return calibration.name();
+}
+
+absl::Status Succeed(Transaction& transaction, v1::CalibrationJob& job, const Outcome& outcome) {
+  TRUEPOSE_ASSIGN_OR_RETURN(*job.mutable_calibration(), StoreResult(transaction, job, outcome));
   return ChangeState(transaction, job, v1::SUCCEEDED, kNobody);
 }
 
@@ -66,7 +68,7 @@ absl::Status Apply(Transaction& transaction, v1::CalibrationJob& job, const Outc
   switch (outcome.kind) {
     case Outcome::Kind::kResult:
       if (IsLate(transaction, job)) return FailAsLate(transaction, job);
-      return Succeed(transaction, job, outcome.calibration);
+      return Succeed(transaction, job, outcome);
     case Outcome::Kind::kCancelled:
       return ChangeState(transaction, job, v1::CANCELLED, kNobody);
     case Outcome::Kind::kStopped:
@@ -98,6 +100,19 @@ absl::StatusOr<std::optional<v1::CalibrationJob>> HeldJob(Snapshot& snapshot, co
 }
 
 }  // namespace
+
+v1::JobError ToJobError(const absl::Status& error) {
+  v1::JobError told;
+  told.set_code(error.raw_code());
+  told.set_message(std::string(error.message()));
+  for (const Fault& fault : FaultsOf(error)) {
+    v1::Fault& one = *told.add_faults();
+    one.set_field(fault.field);
+    one.set_found(fault.found);
+    one.set_expected(fault.expected);
+  }
+  return told;
+}
 
 absl::StatusOr<std::optional<Claim>> ClaimNext(Transaction& transaction) {
   TRUEPOSE_ASSIGN_OR_RETURN(const std::optional<std::string> name,

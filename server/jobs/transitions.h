@@ -9,6 +9,7 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "server/store/compensation_tables.h"
 #include "server/store/jobs.h"
 #include "server/store/transaction.h"
 #include "truepose/v1/calibration.pb.h"
@@ -24,15 +25,19 @@ struct Claim {
 // How a run ended.
 struct Outcome {
   enum class Kind {
-    kResult,     // `calibration` is stored and the job SUCCEEDED
+    kResult,     // `table`, or else `calibration`, is stored and the job SUCCEEDED
     kError,      // the job FAILED with `error`
     kCancelled,  // the job is CANCELLED
     kStopped,    // the engine stops: the job is PENDING again, the attempt not counted
   };
   Kind kind = Kind::kError;
-  v1::Calibration calibration;
-  absl::Status error;
+  v1::Calibration calibration = {};
+  std::optional<store::TableFile> table = {};
+  absl::Status error = {};
 };
+
+// An error as jobs and tables show it, with its faults.
+v1::JobError ToJobError(const absl::Status& error);
 
 // PENDING -> RUNNING of the one whose turn it is (store::NextJob); nothing when none may run.
 absl::StatusOr<std::optional<Claim>> ClaimNext(store::Transaction& transaction);

@@ -79,7 +79,7 @@ absl::Status Worker::TellResult(Transaction& transaction, const Claim& claim) {
   if (!context_.options.with_result) return absl::OkStatus();
   TRUEPOSE_ASSIGN_OR_RETURN(const v1::CalibrationJob job,
                             store::GetJob(transaction, claim.job.name()));
-  if (job.state() != v1::SUCCEEDED) return absl::OkStatus();
+  if (job.state() != v1::SUCCEEDED || !job.compensation_table().empty()) return absl::OkStatus();
   TRUEPOSE_ASSIGN_OR_RETURN(const v1::Calibration calibration,
                             store::GetCalibration(transaction, job.calibration()));
   return context_.options.with_result(transaction, calibration);
@@ -101,7 +101,7 @@ void Worker::StoreOutcome(RunningJob& running, Outcome outcome) {
     if (status.ok()) return context_.At("after_end");
     context_.Warn(absl::StrCat("the end of ", claim.job.name(), " can't be stored"), status);
     if (outcome.kind == Outcome::Kind::kResult && !IsTransient(status))
-      outcome = {.kind = Outcome::Kind::kError, .calibration = {}, .error = status};
+      outcome = {.kind = Outcome::Kind::kError, .error = status};
     if (!context_.signal.Pause(context_.options.store_retry)) return;
   }
 }

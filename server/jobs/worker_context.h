@@ -18,7 +18,7 @@ namespace truepose::jobs {
 // All of it outlives the threads.
 struct WorkerContext {
   store::Store& store;
-  const Runner& runner;
+  const Runners& runners;
   const EngineOptions& options;
   const store::Clock& clock;
   StopSignal& signal;

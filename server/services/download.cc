@@ -9,6 +9,8 @@
 #include "core/base/status_macros.h"
 #include "server/store/calibrations.h"
 #include "server/store/checksum.h"
+#include "server/store/compensation_tables.h"
+#include "server/store/files.h"
 #include "server/store/message.h"
 #include "server/store/names.h"
 #include "server/store/readings.h"
@@ -20,9 +22,13 @@ namespace {
 
 using store::Snapshot;
 
+bool IsTable(const std::string& name) { return absl::StrContains(name, "/compensationTables/"); }
+
 absl::Status CheckRequest(const v1::DownloadRequest& request) {
   FaultList faults;
-  if (absl::StartsWith(request.name(), "robots/")) {
+  if (IsTable(request.name())) {
+    faults.AddAll(store::ParseTableName(request.name()).status());
+  } else if (absl::StartsWith(request.name(), "robots/")) {
     faults.AddAll(store::ParseCalibrationName(request.name()).status());
   } else {
     faults.AddAll(store::ParseSessionName(request.name()).status());
@@ -47,6 +53,15 @@ absl::StatusOr<v1::Session> GetSealed(store::Store& store, const std::string& na
   if (!session.ok() || session->state() == v1::SEALED) return session;
   return store::Refusal(absl::StatusCode::kFailedPrecondition, "name",
                         absl::StrCat(name, ", which is open"), "a sealed session");
+}
+
+absl::StatusOr<v1::CompensationTable> GetReady(store::Store& store, const std::string& name) {
+  auto table = store.Read([&](Snapshot& snapshot) { return store::GetTable(snapshot, name); });
+  if (!table.ok() || table->state() == v1::TABLE_READY) return table;
+  return store::Refusal(
+      absl::StatusCode::kFailedPrecondition, "name",
+      absl::StrCat(name, ", which is ", v1::CompensationTableState_Name(table->state())),
+      "a table that is TABLE_READY");
 }
 
 // A page of readings as bytes of a SessionInput, which may be put one behind another.
@@ -80,8 +95,18 @@ absl::StatusOr<Download::Pieces> Download::PiecesOfSession(const CallContext& ca
   });
 }
 
+absl::StatusOr<Download::Pieces> Download::PiecesOfTable(const CallContext& call,
+                                                         const std::string& name) {
+  TRUEPOSE_ASSIGN_OR_RETURN(const v1::CompensationTable table, GetReady(call.store, name));
+  return Pieces([&store = call.store, sha256 = table.sha256(), position = int64_t{0}]() mutable {
+    const int64_t next = position++;
+    return store.Read([&](Snapshot& snapshot) { return store::ReadPiece(snapshot, sha256, next); });
+  });
+}
+
 absl::StatusOr<Download::Pieces> Download::PiecesOf(const CallContext& call,
                                                     const std::string& name) {
+  if (IsTable(name)) return PiecesOfTable(call, name);
   if (!absl::StartsWith(name, "robots/")) return PiecesOfSession(call, name);
   TRUEPOSE_ASSIGN_OR_RETURN(const v1::Calibration calibration, call.store.Read([&](Snapshot& s) {
     return store::GetCalibration(s, name);

@@ -17,13 +17,14 @@ namespace truepose::services {
 inline constexpr size_t kChunkBytes = 256 << 10;
 
 // One download; its calls come one at a time. Of a session it holds a page of readings and a chunk,
-// however long the session is; a calibration is held whole.
+// however long the session is; a calibration is held whole; of a table's file a piece and a
+// chunk.
 class Download {
  public:
   // Reads the resource once for its size and digest.
   // @returns kInvalidArgument with every fault of the request; kNotFound; kFailedPrecondition for a
-  //   session that isn't sealed; kOutOfRange for an offset beyond the end; kAborted when the bytes
-  //   are no longer those of the request's digest.
+  //   session that isn't sealed and a table that isn't READY; kOutOfRange for an offset beyond the
+  //   end; kAborted when the bytes are no longer those of the request's digest.
   static absl::StatusOr<std::unique_ptr<Download>> Begin(const CallContext& call,
                                                          const v1::DownloadRequest& request);
 
@@ -37,6 +38,7 @@ class Download {
   Download() = default;
   static absl::StatusOr<Pieces> PiecesOf(const CallContext& call, const std::string& name);
   static absl::StatusOr<Pieces> PiecesOfSession(const CallContext& call, const std::string& name);
+  static absl::StatusOr<Pieces> PiecesOfTable(const CallContext& call, const std::string& name);
   absl::Status Measure(const Pieces& pieces);
   absl::Status CheckResumed(const v1::DownloadRequest& request) const;
   absl::Status Skip(int64_t offset);

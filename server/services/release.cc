@@ -12,6 +12,7 @@
 #include "server/services/closures.h"
 #include "server/services/live.h"
 #include "server/services/release_rules.h"
+#include "server/services/table_jobs.h"
 #include "server/store/calibrations.h"
 #include "server/store/jobs.h"
 #include "server/store/message.h"
@@ -89,7 +90,8 @@ absl::StatusOr<bool> IsWithinLimits(Snapshot& snapshot, const v1::Robot& robot,
   return change.ok() && WhyNotAutomatic(robot, calibration, *change).empty();
 }
 
-// Makes `name` the one that acts on the robot; the other one becomes superseded in the same commit.
+// Makes `name` the one that acts on the robot; the other one becomes superseded, and the table by
+// the robot's table_spec is queued, in the same commit.
 absl::StatusOr<v1::Calibration> MakeActive(Transaction& transaction, v1::Robot robot,
                                            const std::string& name, const std::string& principal,
                                            const std::string& reason) {
@@ -100,8 +102,15 @@ absl::StatusOr<v1::Calibration> MakeActive(Transaction& transaction, v1::Robot r
                                  .status());
   }
   robot.set_active_calibration(name);
+  TRUEPOSE_ASSIGN_OR_RETURN(*robot.mutable_active_compensation_table(),
+                            TableToApply(transaction, robot));
   TRUEPOSE_RETURN_IF_ERROR(store::PutRobot(transaction, robot).status());
-  return store::AppendReleaseStep(transaction, name, v1::ACTIVE, principal, reason);
+  TRUEPOSE_ASSIGN_OR_RETURN(
+      v1::Calibration calibration,
+      store::AppendReleaseStep(transaction, name, v1::ACTIVE, principal, reason));
+  TRUEPOSE_RETURN_IF_ERROR(
+      QueueActiveTable(transaction, robot, principal, /*is_machine=*/principal == kServer));
+  return calibration;
 }
 
 absl::StatusOr<v1::Calibration> Activate(Transaction& transaction, const Caller& caller,
@@ -166,16 +175,20 @@ absl::StatusOr<v1::Calibration> RejectCalibration(const CallContext& call,
 
 absl::StatusOr<v1::Calibration> ActivateCalibration(const CallContext& call,
                                                     const v1::ActivateCalibrationRequest& request) {
-  return WriteOnce(call, request, [&](Transaction& transaction) {
+  auto calibration = WriteOnce(call, request, [&](Transaction& transaction) {
     return Activate(transaction, call.caller, request);
   });
+  if (calibration.ok()) call.engine.Wake();
+  return calibration;
 }
 
 absl::StatusOr<v1::Calibration> RollBackCalibration(const CallContext& call,
                                                     const v1::RollBackCalibrationRequest& request) {
-  return WriteOnce(call, request, [&](Transaction& transaction) {
+  auto calibration = WriteOnce(call, request, [&](Transaction& transaction) {
     return RollBack(transaction, call.caller, request);
   });
+  if (calibration.ok()) call.engine.Wake();
+  return calibration;
 }
 
 absl::Status ReleaseWithinLimits(Transaction& transaction, const v1::Calibration& calibration) {

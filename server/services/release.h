@@ -4,7 +4,8 @@
 // machine. TWO_PERSON: who neither created the job nor sealed one of its sessions; a job that a
 // machine made needs one person. ONE_PERSON: any person. On a server that is open to everybody
 // (local-dev) there is one person only, and TWO_PERSON counts as ONE_PERSON. A calibration whose
-// verdict is do_not_apply is approved with a reason only.
+// verdict is do_not_apply is approved with a reason only. An activation of a robot with a
+// table_spec queues the compensation table in the same commit (table_jobs.h).
 #pragma once
 
 #include <string>

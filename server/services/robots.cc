@@ -6,6 +6,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "convert/run.h"
+#include "convert/table_spec.h"
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
 #include "google/protobuf/util/message_differencer.h"
@@ -14,6 +15,7 @@
 #include "server/services/closures.h"
 #include "server/services/live.h"
 #include "server/services/release_rules.h"
+#include "server/services/table_jobs.h"
 #include "server/store/jobs.h"
 #include "server/store/message.h"
 #include "server/store/names.h"
@@ -58,6 +60,22 @@ absl::Status CheckMaySetRelease(const Caller& caller, const v1::Robot& before,
   return same ? absl::OkStatus() : CheckIsAdmin(caller);
 }
 
+// Against the robot's latest nominal.
+void CheckTableSpec(const v1::Nominal& nominal, const v1::Robot& robot, FaultList& faults) {
+  const absl::Status status = convert::ValidateTableSpec(nominal, robot.table_spec());
+  if (!status.ok()) faults.AddAll(status, "robot.table_spec.");
+}
+
+// A robot with another spec than before: which table is to be applied, and one that is not there
+// yet is built.
+absl::StatusOr<v1::Robot> FollowTableSpec(Transaction& transaction, const Caller& caller,
+                                          const v1::Robot& robot) {
+  TRUEPOSE_RETURN_IF_ERROR(
+      QueueActiveTable(transaction, robot, caller.principal, caller.is_machine));
+  TRUEPOSE_RETURN_IF_ERROR(RefreshTableToApply(transaction, robot.name()));
+  return store::GetRobot(transaction, robot.name());
+}
+
 absl::StatusOr<v1::Robot> Update(Transaction& transaction, const Caller& caller,
                                  const v1::UpdateRobotRequest& request) {
   TRUEPOSE_ASSIGN_OR_RETURN(v1::Robot robot,
@@ -66,12 +84,17 @@ absl::StatusOr<v1::Robot> Update(Transaction& transaction, const Caller& caller,
   const v1::Robot before = robot;
   TRUEPOSE_RETURN_IF_ERROR(
       resource::ApplyUpdate(request.robot(), request.update_mask(), OutputOnly(), robot));
+  using google::protobuf::util::MessageDifferencer;
+  const bool same_spec = MessageDifferencer::Equals(before.table_spec(), robot.table_spec()) &&
+                         before.has_table_spec() == robot.has_table_spec();
   FaultList faults;
   CheckSettings(robot, faults);
+  if (!same_spec) CheckTableSpec(robot.nominal_revision().nominal(), robot, faults);
   TRUEPOSE_RETURN_IF_ERROR(faults.ToStatus());
   TRUEPOSE_RETURN_IF_ERROR(CheckMaySetRelease(caller, before, robot));
-  if (google::protobuf::util::MessageDifferencer::Equals(before, robot)) return robot;
-  return store::PutRobot(transaction, robot);
+  if (MessageDifferencer::Equals(before, robot)) return robot;
+  TRUEPOSE_ASSIGN_OR_RETURN(robot, store::PutRobot(transaction, robot));
+  return same_spec ? robot : FollowTableSpec(transaction, caller, robot);
 }
 
 absl::Status CheckNoJobs(Transaction& transaction, const std::string& robot) {
@@ -107,6 +130,7 @@ absl::StatusOr<v1::Robot> CreateRobot(const CallContext& call,
   faults.AddAll(store::CheckRobotId(request.robot_id(), "robot_id"));
   faults.AddAll(convert::ValidateNominal(request.nominal()), "nominal.");
   CheckSettings(request.robot(), faults);
+  CheckTableSpec(request.nominal(), request.robot(), faults);
   TRUEPOSE_RETURN_IF_ERROR(faults.ToStatus());
   TRUEPOSE_RETURN_IF_ERROR(CheckMaySetRelease(call.caller, v1::Robot(), request.robot()));
   const std::string digest = convert::NominalDigest(request.nominal());
@@ -118,9 +142,11 @@ absl::StatusOr<v1::Robot> CreateRobot(const CallContext& call,
 
 absl::StatusOr<v1::Robot> UpdateRobot(const CallContext& call,
                                       const v1::UpdateRobotRequest& request) {
-  return WriteOnce(call, request, [&](Transaction& transaction) {
+  auto robot = WriteOnce(call, request, [&](Transaction& transaction) {
     return Update(transaction, call.caller, request);
   });
+  if (robot.ok()) call.engine.Wake();
+  return robot;
 }
 
 absl::StatusOr<v1::Robot> DeleteRobot(const CallContext& call,

@@ -122,7 +122,7 @@ absl::StatusOr<std::vector<FrozenSession>> CheckJobInput(Snapshot& snapshot,
   faults.Add(GetRobot(snapshot, job.robot()).status(), "robot");
   faults.Add(CheckNominal(snapshot, job), "nominal_revision");
   faults.Add(CheckOrder(job), "priority");
-  if (job.sessions().empty())
+  if (job.sessions().empty() && job.compensation_table().empty())
     faults.Add(FaultStatus("sessions", "none", "at least one"), "sessions");
   std::vector<FrozenSession> sessions;
   for (int i = 0; i < job.sessions_size(); ++i) {

@@ -28,7 +28,8 @@ int64_t DeadlineKey(const v1::CalibrationJob& job) {
 bool IsRepeat(const v1::CalibrationJob& stored, const v1::CalibrationJob& asked) {
   return stored.robot() == asked.robot() && stored.input_digest() == asked.input_digest() &&
          stored.priority() == asked.priority() && DeadlineKey(stored) == DeadlineKey(asked) &&
-         stored.recalibration_request() == asked.recalibration_request();
+         stored.recalibration_request() == asked.recalibration_request() &&
+         stored.compensation_table() == asked.compensation_table();
 }
 
 // The job of this id, if the request is a repeat of the one that made it.
@@ -59,6 +60,7 @@ v1::CalibrationJob NewJob(const std::string& id, const v1::CalibrationJob& asked
   job.set_created_by(asked.created_by());
   job.set_created_by_machine(asked.created_by_machine());
   job.set_recalibration_request(asked.recalibration_request());
+  job.set_compensation_table(asked.compensation_table());
   *job.mutable_create_time() = ToTimestamp(now);
   return job;
 }

@@ -22,9 +22,10 @@ inline constexpr int kLowestPriority = -100, kHighestPriority = 100;
 // Stores a PENDING job and freezes its input in the same transaction: nominal revision, session
 // names with their digests, options and input digest. Of `job` are used: robot, sessions, options,
 // nominal_revision, input_digest, priority, deadline (to the microsecond), created_by,
-// created_by_machine, recalibration_request. A repeat with the same robot, input digest, priority,
-// deadline and recalibration request returns the job as it is now, whoever repeats it; wake the
-// engine after the commit.
+// created_by_machine, recalibration_request, and compensation_table: a job that builds a table has
+// no sessions, its input is read by LoadTableInput (compensation_tables.h). A repeat with the same
+// robot, input digest, priority, deadline, recalibration request and table returns the job as it is
+// now, whoever repeats it; wake the engine after the commit.
 // @returns kInvalidArgument for names, no session, a priority out of range or a deadline that isn't
 // a time; kNotFound for the robot, revision or a session; all faults at once with
 //   kFailedPrecondition for sessions that are not sealed or of another robot, and for a deadline

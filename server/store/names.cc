@@ -82,6 +82,10 @@ std::string CalibrationName(std::string_view robot_id, int64_t number) {
   return absl::StrCat(RobotName(robot_id), "/calibrations/", number);
 }
 
+std::string CompensationTableName(std::string_view robot_id, std::string_view table_id) {
+  return absl::StrCat(RobotName(robot_id), "/compensationTables/", std::string(table_id));
+}
+
 absl::StatusOr<std::string> ParseRobotName(std::string_view name, std::string_view field) {
   return ParseSimple(name, "robots", IsRobotId, "robots/{robot}", field);
 }
@@ -104,6 +108,15 @@ absl::StatusOr<NumberedName> ParseNominalName(std::string_view name, std::string
 
 absl::StatusOr<NumberedName> ParseCalibrationName(std::string_view name, std::string_view field) {
   return ParseNumbered(name, "calibrations", "robots/{robot}/calibrations/{number}", field);
+}
+
+absl::StatusOr<TableName> ParseTableName(std::string_view name, std::string_view field) {
+  const std::vector<std::string> parts = absl::StrSplit(std::string(name), '/');
+  if (parts.size() == 4 && parts[0] == "robots" && IsRobotId(parts[1]) &&
+      parts[2] == "compensationTables" && IsUuid(parts[3])) {
+    return TableName{parts[1], parts[3]};
+  }
+  return NameFault(name, "robots/{robot}/compensationTables/{uuid}", field);
 }
 
 absl::Status CheckRobotId(std::string_view robot_id, std::string_view field) {

@@ -105,6 +105,8 @@ void CopyRobotSettings(const v1::Robot& from, v1::Robot& robot) {
   robot.set_release_policy(from.release_policy());
   robot.clear_limits();
   if (from.has_limits()) *robot.mutable_limits() = from.limits();
+  robot.clear_table_spec();
+  if (from.has_table_spec()) *robot.mutable_table_spec() = from.table_spec();
 }
 
 absl::StatusOr<v1::Robot> CreateRobot(Transaction& transaction, std::string_view robot_id,

@@ -20,7 +20,7 @@ namespace truepose::store {
 absl::StatusOr<v1::Robot> CreateRobot(Transaction& transaction, std::string_view robot_id,
                                       const v1::Nominal& nominal, std::string_view digest,
                                       const v1::Robot& settings = {});
-// What a person may change: display_name, release_policy, limits.
+// What a person may change: display_name, release_policy, limits, table_spec.
 void CopyRobotSettings(const v1::Robot& from, v1::Robot& robot);
 // Writes a new state of a robot that is there (its nominals stay) and records the event. @returns
 // the robot with its new revision and etag.

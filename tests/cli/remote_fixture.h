@@ -33,7 +33,7 @@ class RemoteFixture : public ::testing::Test {
     options.dev_open = true;
     options.listen = absl::StrCat("unix:", folder_.Path("socket"));
     options.database = folder_.Path("plant.db");
-    auto started = server::Server::Start(options, server::CalibrationRunner());
+    auto started = server::Server::Start(options, runners_);
     ASSERT_TRUE(started.ok()) << started.status();
     server_ = *std::move(started);
   }
@@ -60,6 +60,7 @@ class RemoteFixture : public ::testing::Test {
   const TempFolder folder_;
   const std::string robot_ = Example("ur10.yaml");
   const std::string session_ = folder_.Path("session.csv");
+  jobs::Runners runners_ = server::CalibrationRunner();
   std::unique_ptr<server::Server> server_;
 };
 

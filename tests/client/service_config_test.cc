@@ -8,6 +8,7 @@
 #include "google/protobuf/descriptor.h"
 #include "gtest/gtest.h"
 #include "truepose/v1/admin_services.pb.h"
+#include "truepose/v1/compensation_table_services.pb.h"
 #include "truepose/v1/download_services.pb.h"
 #include "truepose/v1/plant_services.pb.h"
 #include "truepose/v1/recalibration_services.pb.h"
@@ -53,6 +54,7 @@ const google::protobuf::internal::DescriptorTable* const kTables[] = {
     &descriptor_table_truepose_2fv1_2fservices_2eproto,
     &descriptor_table_truepose_2fv1_2fplant_5fservices_2eproto,
     &descriptor_table_truepose_2fv1_2frecalibration_5fservices_2eproto,
+    &descriptor_table_truepose_2fv1_2fcompensation_5ftable_5fservices_2eproto,
     &descriptor_table_truepose_2fv1_2fdownload_5fservices_2eproto,
     &descriptor_table_truepose_2fv1_2fwatch_5fservices_2eproto,
     &descriptor_table_truepose_2fv1_2fadmin_5fservices_2eproto};

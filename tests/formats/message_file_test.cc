@@ -8,6 +8,7 @@
 
 #include "core/base/fault.h"
 #include "formats/message_text.h"
+#include "truepose/v1/compensation_table_spec.pb.h"
 #include "truepose/v1/plant.pb.h"
 #include "truepose/v1/recalibration.pb.h"
 #include "truepose/v1/robot.pb.h"
@@ -105,6 +106,18 @@ TEST(MessageFile, FieldsOneByOne) {
                                                      "display_name", "release_policy"));
   EXPECT_THAT(FieldsOf(SetMessageFields({{"limits.drift_rms_mm", "x"}}, "--set", robot, given)),
               ElementsAre("--set limits.drift_rms_mm"));
+}
+
+// Would catch a whole number without a sign that ends the process, or is taken with one.
+TEST(MessageFile, NumbersWithoutASign) {
+  v1::CompensationTableSpec spec;
+  GivenFields given;
+  ASSERT_TRUE(ParseMessageFile("seed: 7\nbox:\n  cone_deg: 30\n", "s.yaml", spec, given).ok());
+  EXPECT_EQ(spec.seed(), 7u);
+  EXPECT_NEAR(spec.box().cone_rad(), 0.5235987755982988, 1e-15) << "rounding of 30 pi / 180";
+  EXPECT_EQ(DescribeMessage(spec).back().text, "7");
+  EXPECT_THAT(FieldsOf(ParseMessageFile("seed: -1", "s.yaml", spec, given)),
+              ElementsAre("s.yaml:1: seed"));
 }
 
 // Would catch a text that can't be given back as it is shown, or in other units.

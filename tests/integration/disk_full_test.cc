@@ -89,7 +89,7 @@ TEST_F(DiskFull, ReadsGoOnAndWritesComeBack) {
 
 // Would catch a job that is lost, or fails, because its states can't be written for a while.
 TEST_F(DiskFull, AJobEndsWhenThereIsSpace) {
-  runner_ = [this](const v1::CalibrationInput&, const jobs::RunnerHooks&) {
+  runner_.calibrate = [this](const v1::CalibrationInput&, const jobs::RunnerHooks&) {
     disk_.SetFull(true);
     full_.Notify();
     return absl::StatusOr<v1::Calibration>(absl::InvalidArgumentError("its end is to be stored"));

@@ -14,9 +14,11 @@
 #include "absl/synchronization/notification.h"
 #include "absl/time/clock.h"
 #include "client/append_readings.h"
+#include "client/download.h"
 #include "client/pager.h"
 #include "client/wait_for_job.h"
 #include "convert/run.h"
+#include "convert/table_build.h"
 #include "tests/integration/effects.h"
 #include "tests/integration/server_fixture.h"
 #include "tests/integration/server_process.h"
@@ -164,6 +166,59 @@ TEST_F(KillTest, AJobFinishesThoughItsServerDies) {
   const auto listed = NewClient(*process).ListCalibrations(request);
   ASSERT_THAT(listed, IsOk());
   EXPECT_EQ(listed->calibrations_size(), 1);
+}
+
+// Small enough to be built in a fraction of a second.
+v1::CompensationTableSpec SmallSpec(uint64_t seed) {
+  v1::CompensationTableSpec spec;
+  spec.set_seed(seed);
+  spec.set_verification_points(1'000);
+  for (int i = 0; i < 5; ++i) {
+    v1::JointRange& range = *spec.mutable_joint_ranges()->add_joints();
+    range.set_lower(-0.1);
+    range.set_upper(0.1);
+  }
+  return spec;
+}
+
+// Would catch a table that is lost, READY without its bytes, or other bytes after a kill than those
+// that are built without a server.
+TEST_F(KillTest, ATableIsBuiltThoughItsServerDies) {
+  auto process = Start();
+  ASSERT_NO_FATAL_FAILURE(Import(NewClient(*process), "arm", Uuid(1), MeasuringSession(100, 1)));
+  ASSERT_THAT(NewClient(*process).CreateCalibrationJob(JobRequest(Uuid(2), "arm", Uuid(1))),
+              IsOk());
+  ASSERT_THAT(client::WaitForJob(NewClient(*process), absl::StrCat("jobs/", Uuid(2))), IsOk());
+  v1::GetCalibrationRequest get;
+  get.set_name("robots/arm/calibrations/1");
+  v1::CompensationTableInput input;
+  input.set_robot("robots/arm");
+  *input.mutable_nominal() = convert::MeasuringRobot();
+  *input.mutable_calibration() = *NewClient(*process).GetCalibration(get);
+  for (int round = 0; round < 3; ++round) {
+    v1::CreateCompensationTableRequest request;
+    request.set_parent("robots/arm");
+    request.set_compensation_table_id(Uuid(200 + round));
+    request.mutable_compensation_table()->set_calibration(get.name());
+    *request.mutable_compensation_table()->mutable_spec() = SmallSpec(round);
+    request.set_allow_draft(true);
+    const auto table = NewClient(*process).CreateCompensationTable(request);
+    ASSERT_THAT(table, IsOk());
+    for (int kill = 0; kill < 2; ++kill) {
+      absl::SleepFor(absl::Milliseconds(Draw(0, 120)));
+      process->Kill();
+      process = Start();
+    }
+    const auto job = client::WaitForJob(NewClient(*process), table->job());
+    ASSERT_THAT(job, IsOk());
+    ASSERT_EQ(job->state(), v1::SUCCEEDED) << job->DebugString();
+    const auto bytes = client::Download(NewClient(*process), table->name());
+    ASSERT_THAT(bytes, IsOk());
+    *input.mutable_spec() = SmallSpec(round);
+    const auto here = convert::RunTableBuild(input);
+    ASSERT_THAT(here, IsOk());
+    EXPECT_TRUE(*bytes == here->bytes) << "round " << round;
+  }
 }
 
 // What the clients of one run were told.

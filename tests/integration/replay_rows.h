@@ -22,7 +22,8 @@ struct ReplayRow {
   // Rows whose requests go first, with the same number.
   std::vector<std::string> before;
   Stage stage = Stage::kNothing;  // after those
-  // $n = the number, $uuid a UUID with it, $nominal a robot's, $changed_nominal another one.
+  // $n = the number, $uuid and $table two UUIDs with it, $nominal a robot's, $changed_nominal
+  // another one.
   std::string request;
 };
 

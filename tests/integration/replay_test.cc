@@ -66,8 +66,8 @@ Tally operator-(Tally after, const Tally& before) {
 class ReplayTest : public testing::ServerFixture {
  protected:
   ReplayTest() {
-    runner_ = [run = server::CalibrationRunner()](const v1::CalibrationInput& input,
-                                                  const jobs::RunnerHooks& hooks) {
+    runner_.calibrate = [run = server::CalibrationRunner()](const v1::CalibrationInput& input,
+                                                            const jobs::RunnerHooks& hooks) {
       const bool slow = input.sessions(0).session().display_name() == kSlow;
       while (slow && !hooks.is_cancelled()) absl::SleepFor(absl::Milliseconds(2));
       return slow ? absl::CancelledError("asked to end") : run(input, hooks);
@@ -89,6 +89,7 @@ class ReplayTest : public testing::ServerFixture {
         absl::StrReplaceAll(row.request, {{"$nominal", nominal_},
                                           {"$changed_nominal", changed_nominal_},
                                           {"$uuid", Uuid(number)},
+                                          {"$table", Uuid(2'000'000 + number)},
                                           {"$n", std::to_string(number)}}));
   }
   DynamicReply Call(const std::string& method, const Message& request) const {
@@ -265,8 +266,9 @@ TEST_F(ReplayTest, OneEffectAndOneAnswer) {
     const Tally before = Count();
     for (const Asked& one : asked) {
       EXPECT_EQ(MustCall(one.row->method, *one.request).bytes, one.answer) << one.row->method;
-      // The preview of a job stores nothing and looks up no id.
-      const bool has_preview = one.row->method == "CreateCalibrationJob";
+      // The preview of a job or table stores nothing and looks up no id.
+      const bool has_preview =
+          one.row->method == "CreateCalibrationJob" || one.row->method == "CreateCompensationTable";
       if (!has_preview &&
           (Set(*one.request, "validate_only", "") || Set(*one.request, "reason", "another"))) {
         EXPECT_FALSE(Call(one.row->method, *one.request).status.ok()) << one.row->method;

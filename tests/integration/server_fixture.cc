@@ -48,7 +48,29 @@ v1::CreateCalibrationJobRequest JobRequest(const std::string& job_id, const std:
   return request;
 }
 
-ServerFixture::ServerFixture() : runner_(server::CalibrationRunner()) {
+absl::StatusOr<jobs::BuiltTable> SmallTable(const v1::CompensationTableInput& input,
+                                            const jobs::RunnerHooks& hooks) {
+  v1::JobProgress progress;
+  progress.set_stage("nodes");
+  progress.set_fraction(0.5);
+  hooks.on_progress(progress);
+  jobs::BuiltTable built;
+  built.header.set_schema_version(1);
+  built.header.set_robot(input.robot());
+  built.header.set_calibration(input.calibration().name());
+  built.header.set_calibration_digest(input.calibration().digest());
+  const std::string line =
+      absl::StrCat(input.calibration().digest(), " ", input.spec().seed(), "\n");
+  while (built.bytes.size() < 600'000) built.bytes += line;
+  return built;
+}
+
+ServerFixture::ServerFixture()
+    : runner_(server::CalibrationRunner(), SmallTable, [](const v1::CompensationTableInput&) {
+        v1::CompensationTableEstimate estimate;
+        estimate.set_size_bytes(600'000);
+        return estimate;
+      }) {
   options_.listen = absl::StrCat("unix:", folder_.File("s.sock"));
   options_.database = folder_.File("t.db");
   options_.dev_open = true;  // tests of tokens: authenticated_fixture.h

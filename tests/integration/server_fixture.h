@@ -26,6 +26,10 @@ void Import(const client::Client& client, const std::string& robot_id,
 v1::CreateCalibrationJobRequest JobRequest(const std::string& job_id, const std::string& robot_id,
                                            const std::string& session_id);
 
+// The file of a table for tests, in three pieces; it differs with calibration and seed.
+absl::StatusOr<jobs::BuiltTable> SmallTable(const v1::CompensationTableInput& input,
+                                            const jobs::RunnerHooks& hooks);
+
 class ServerFixture : public ::testing::Test {
  protected:
   ServerFixture();
@@ -36,7 +40,7 @@ class ServerFixture : public ::testing::Test {
   client::Client NewClient() const;
 
   server::ServerOptions options_;
-  jobs::Runner runner_;  // of the next Restart
+  jobs::Runners runner_;  // of the next Restart; tables are SmallTable
 
  private:
   TempDir folder_;

@@ -158,7 +158,7 @@ TEST_F(WatchTest, CutsASlowReaderWithTheRevisionToResumeFrom) {
 
 // Would catch progress that never comes, comes again and again without news, or is kept as history.
 TEST_F(WatchTest, ProgressOfARunningJobComesBeside) {
-  runner_ = [](const v1::CalibrationInput&, const jobs::RunnerHooks& hooks) {
+  runner_.calibrate = [](const v1::CalibrationInput&, const jobs::RunnerHooks& hooks) {
     v1::JobProgress progress;
     progress.set_fraction(0.5);
     hooks.on_progress(progress);

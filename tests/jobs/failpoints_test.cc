@@ -21,6 +21,9 @@
 #include "server/jobs/engine.h"
 #include "server/jobs/transitions.h"
 #include "server/store/calibrations.h"
+#include "server/store/checksum.h"
+#include "server/store/compensation_tables.h"
+#include "server/store/files.h"
 #include "server/store/jobs.h"
 #include "server/store/names.h"
 #include "tests/jobs/engine_testing.h"
@@ -31,7 +34,8 @@ namespace truepose::jobs {
 namespace {
 
 constexpr int kCrashed = 99;
-constexpr int kJobs = 4;  // the last one is cancelled by each server
+constexpr int kJobs = 5;   // the last one is cancelled by each server
+constexpr int kTable = 4;  // it builds a compensation table
 const std::string kCancelled = store::JobName(store::Uuid(kJobs));
 
 std::string Name(int number) { return store::JobName(store::Uuid(number)); }
@@ -53,6 +57,18 @@ absl::StatusOr<v1::Calibration> Calibrate(const v1::CalibrationInput& input,
   return calibration;
 }
 
+std::string TableBytes() { return std::string(3 * store::kPieceBytes / 2, 't'); }
+
+absl::StatusOr<BuiltTable> BuildTable(const v1::CompensationTableInput& input,
+                                      const RunnerHooks& hooks) {
+  v1::JobProgress progress;
+  progress.set_fraction(0.5);
+  hooks.on_progress(progress);
+  BuiltTable built{TableBytes(), {}};
+  built.header.set_calibration(input.calibration().name());
+  return built;
+}
+
 EngineOptions OptionsWith(const End& end) {
   EngineOptions options = QuickOptions();
   options.max_attempts = 9;  // more than lives: giving up has its own test
@@ -67,7 +83,7 @@ EngineOptions OptionsWith(const End& end) {
 [[noreturn]] void Server(const std::string& path, const End& end, int pipe) {
   const auto store = store::Store::Open({.path = path});
   if (!store.ok()) _exit(2);
-  JobEngine engine(**store, Calibrate, OptionsWith(end));
+  JobEngine engine(**store, Runners(Calibrate, BuildTable, {}), OptionsWith(end));
   if (!engine.Cancel(kCancelled).ok() || write(pipe, "1", 1) != 1) _exit(3);
   if (!engine.Start().ok()) _exit(4);
   for (int number = 1; number <= kJobs; ++number) Finish(engine, Name(number));
@@ -77,7 +93,8 @@ EngineOptions OptionsWith(const End& end) {
 
 class Failpoints : public ::testing::Test {
  protected:
-  // Two robots; a job that a dead server left RUNNING, two that wait, one to be cancelled.
+  // Two robots; a job that a dead server left RUNNING, three that wait, one of which builds a table
+  // of a calibration that is there, and one to be cancelled.
   void SetUp() override {
     const auto store = store::Store::Open({.path = prepared_});
     ASSERT_TRUE(store.ok()) << store.status();
@@ -90,6 +107,7 @@ class Failpoints : public ::testing::Test {
                     .ok());
     store::AddJob(**store, 2);
     store::AddJob(**store, 3, "other", {2});
+    store::AddTableJob(**store, kTable, store::AddCalibration(**store, 9, "other", 2), "other");
     store::AddJob(**store, kJobs);
   }
 
@@ -116,7 +134,7 @@ class Failpoints : public ::testing::Test {
     for (int number = 1; number <= kJobs; ++number) {
       const v1::CalibrationJob job = Stored(**store, Name(number));
       EXPECT_EQ(job.calibration().empty(), job.state() != v1::SUCCEEDED) << when;
-      results += job.state() == v1::SUCCEEDED;
+      results += job.state() == v1::SUCCEEDED && number != kTable;
       const std::string before = std::exchange(ended_[number], "");
       if (!before.empty()) {
         EXPECT_EQ(job.SerializeAsString(), before) << when;
@@ -126,9 +144,32 @@ class Failpoints : public ::testing::Test {
       // It is begun once more, unless it is over or the server that took it up stopped in time.
       attempts_[number] = job.attempts() + (is_over || number == kJobs ? 0 : 1);
     }
-    EXPECT_EQ(Calibrations(**store), results) << when << ": each result has its job";
+    EXPECT_EQ(Calibrations(**store), 1 + results) << when << ": each result has its job";
+    InspectTable(**store, when);
     const v1::CalibrationJob cancelled = Stored(**store, kCancelled);
     EXPECT_TRUE(!cancel_acknowledged_ || cancelled.state() == v1::CANCELLED) << when;
+  }
+
+  // Its file is there whole exactly when it is READY, and it is READY exactly when its job has
+  // SUCCEEDED.
+  void InspectTable(store::Store& store, const std::string& when) {
+    const v1::CalibrationJob job = Stored(store, Name(kTable));
+    const auto table = store.Read([&](store::Snapshot& snapshot) {
+      return store::GetTable(snapshot, job.compensation_table());
+    });
+    ASSERT_TRUE(table.ok()) << table.status() << when;
+    EXPECT_EQ(table->state() == v1::TABLE_READY, job.state() == v1::SUCCEEDED) << when;
+    const std::string sha256 = store::Sha256Hex(TableBytes());
+    std::string bytes;
+    for (int64_t position = 0; position < 2; ++position) {
+      bytes += store
+                   .Read([&](store::Snapshot& snapshot) {
+                     return store::ReadPiece(snapshot, sha256, position);
+                   })
+                   .value_or("");
+    }
+    EXPECT_EQ(bytes, job.state() == v1::SUCCEEDED ? TableBytes() : "") << when;
+    EXPECT_EQ(table->sha256(), job.state() == v1::SUCCEEDED ? sha256 : "") << when;
   }
 
   void ExpectEnds(const std::string& when) {

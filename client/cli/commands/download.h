@@ -11,8 +11,10 @@
 namespace truepose::cli {
 
 // The bytes of a resource by its name (client/download.h).
+// @param sha256 the digest that they must have, "" = any.
 absl::StatusOr<std::string> DownloadWithBar(const Invocation& invocation,
-                                            const client::Client& client, const std::string& name);
+                                            const client::Client& client, const std::string& name,
+                                            const std::string& sha256 = "");
 
 template <typename Message>
 absl::StatusOr<Message> DownloadWhole(const Invocation& invocation, const client::Client& client,

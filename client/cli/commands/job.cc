@@ -4,6 +4,7 @@
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "absl/strings/str_replace.h"
 #include "client/cli/commands/commands.h"
 #include "client/cli/commands/list_options.h"
 #include "client/cli/commands/wait.h"
@@ -23,11 +24,21 @@ std::string StateText(const v1::CalibrationJob& job) {
   return absl::AsciiStrToLower(v1::JobState_Name(job.state()));
 }
 
+// Of a job that has built a table.
+std::string TableJobText(const v1::CalibrationJob& job, const std::string& text) {
+  const std::string table =
+      absl::StrReplaceAll(job.compensation_table(), {{"robots/", ""}, {"compensationTables/", ""}});
+  return absl::StrCat(text, ", table ", table, " of ", ShortName(job.calibration()),
+                      "\nNext: truepose table download ", table, " --output table.tpct\n");
+}
+
 std::string JobText(const v1::CalibrationJob& job) {
   std::string text = absl::StrCat("Job ", ShortName(job.name()), " of ", ShortName(job.robot()),
                                   ": ", StateText(job));
   if (job.cancel_requested() && job.state() == v1::RUNNING)
     absl::StrAppend(&text, ", cancel requested");
+  if (job.state() == v1::SUCCEEDED && !job.compensation_table().empty())
+    return TableJobText(job, text);
   if (job.calibration().empty()) return absl::StrCat(text, "\n");
   const std::string calibration = ShortName(job.calibration());
   return absl::StrCat(text, ", calibration ", calibration, "\nNext: truepose calibration show ",
@@ -57,13 +68,15 @@ std::string JobsTable(const v1::ListCalibrationJobsResponse& list) {
                {"robot", Align::kLeft},
                {"state", Align::kLeft},
                {"done"},
+               {"makes", Align::kLeft},
                {"calibration", Align::kLeft},
                {"created", Align::kLeft}});
   for (const v1::CalibrationJob& job : list.jobs()) {
     const double fraction = job.state() == v1::SUCCEEDED ? 1.0 : job.progress().fraction();
     table.Add({ShortName(job.name()), ShortName(job.robot()), StateText(job),
-               absl::StrFormat("%.0f %%", 100.0 * fraction), ShortName(job.calibration()),
-               TimeText(job.create_time())});
+               absl::StrFormat("%.0f %%", 100.0 * fraction),
+               job.compensation_table().empty() ? "calibration" : "table",
+               ShortName(job.calibration()), TimeText(job.create_time())});
   }
   return table.Text();
 }
@@ -108,7 +121,7 @@ void AddOne(const Command& job, const std::string& verb, const std::string& summ
 }  // namespace
 
 void AddJob(const Command& root) {
-  const Command job = root.Add("job", "Calibration jobs on the server");
+  const Command job = root.Add("job", "Jobs on the server: calibrations and tables");
   job.Footer("Example:\n  truepose job list --robot ur10");
   AddOne(job, "watch", "Wait for a job; its end is the exit code", Watch);
   AddOne(job, "cancel", "End a job", Cancel);

@@ -74,6 +74,11 @@ void AddContentOptions(const Command& command, const ResourceKind& kind, Content
   if (kind.word == "fixture") {
     command.Option("--features", "FILE", &options->features, "The features, as a fixture file");
   }
+  if (kind.word == "robot") {
+    command.Option("--table-spec", "FILE", &options->table_spec,
+                   "Domain and tolerances of the table that follows each activation (YAML or "
+                   "JSON); --set table_spec= ends that");
+  }
   if (kind.word == "pose-set") {
     command.Option("--poses", "FILE", &options->poses, "The poses, as CSV with joint columns");
   }
@@ -105,6 +110,13 @@ absl::Status ReadContent(const client::Client& client, const ResourceKind& kind,
     TRUEPOSE_RETURN_IF_ERROR(
         ReadPoses(client, RobotOf(name), options.poses, static_cast<v1::PoseSet&>(content)));
     given.push_back("poses");
+  }
+  if (!options.table_spec.empty()) {
+    formats::GivenFields fields_of_spec;
+    TRUEPOSE_RETURN_IF_ERROR(AsInputFault(formats::ReadMessageFile(
+        options.table_spec, *static_cast<v1::Robot&>(content).mutable_table_spec(),
+        fields_of_spec)));
+    given.push_back("table_spec");
   }
   if (given.empty() && needed) return UsageError("nothing to change: give --set or --file");
   return absl::OkStatus();

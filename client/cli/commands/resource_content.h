@@ -16,6 +16,7 @@ struct ContentOptions {
   std::vector<std::string> set;  // KEY=VALUE
   std::string features;          // a fixture file, of fixtures only
   std::string poses;             // a CSV of joints, of pose sets only
+  std::string table_spec;        // a file, of robots only
 };
 
 // Describes the options that the kind has.

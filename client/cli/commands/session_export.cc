@@ -50,9 +50,11 @@ absl::Status Export(const Invocation& invocation, const std::string& typed,
 }  // namespace
 
 absl::StatusOr<std::string> DownloadWithBar(const Invocation& invocation,
-                                            const client::Client& client, const std::string& name) {
+                                            const client::Client& client, const std::string& name,
+                                            const std::string& sha256) {
   ProgressBar bar(invocation.console, "download");
   client::DownloadOptions options;
+  options.sha256 = sha256;
   options.on_progress = [&](int64_t have, int64_t total) {
     bar.Show(total == 0 ? 1.0 : static_cast<double>(have) / static_cast<double>(total),
              absl::StrFormat("%.1f of %.1f MB", 1e-6 * have, 1e-6 * total));

@@ -6,6 +6,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "client/cli/commands/commands.h"
+#include "client/cli/commands/table_remote.h"
 #include "client/cli/names.h"
 #include "client/cli/table.h"
 #include "core/base/fault.h"
@@ -60,6 +61,9 @@ absl::StatusOr<v1::CompensationTableSpec> LoadTableSpec(const TableOptions& opti
 }
 
 absl::StatusOr<v1::CompensationTableInput> LoadTableInput(const TableOptions& options) {
+  if (options.allow_draft || options.no_wait)
+    return UsageError("--allow-draft and --no-wait are for a server");
+  if (options.calibration.empty()) return UsageError("--local needs --calibration FILE");
   if (options.robot.empty()) return UsageError("--local needs --robot FILE");
   TRUEPOSE_ASSIGN_OR_RETURN(const formats::RobotFile robot, LoadRobot(options.robot, options.ends));
   TRUEPOSE_ASSIGN_OR_RETURN(v1::Calibration calibration, LoadCalibration(options.calibration));
@@ -102,12 +106,13 @@ std::string EstimateText(const v1::CompensationTableEstimate& estimate) {
 }
 
 void AddTable(const Command& root) {
-  const Command table = root.Add("table", "Build, look at and check compensation tables");
+  const Command table = root.Add("table", "Build, look at, check and fetch compensation tables");
   AddTableEstimate(table);
   AddTableBuild(table);
   AddTableShow(table);
   AddTableVerify(table);
   AddTableExport(table);
+  AddTableOnServer(table);
 }
 
 }  // namespace truepose::cli

@@ -1,9 +1,12 @@
 // truepose table show and verify: a file that is there.
+#include <filesystem>
 #include <memory>
 #include <utility>
 
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "client/cli/commands/table.h"
+#include "client/cli/commands/table_remote.h"
 #include "client/cli/reply.h"
 #include "client/cli/table.h"
 #include "client/cli/table_text.h"
@@ -21,7 +24,13 @@ struct VerifyOptions {
   unsigned long long seed = 2;
 };
 
+// What is no file is a name on the server.
+bool IsFile(const std::string& typed) {
+  return std::filesystem::exists(typed) || absl::EndsWith(typed, ".tpct");
+}
+
 absl::Status Show(const Invocation& invocation, const std::string& path) {
+  if (!IsFile(path)) return ShowTableOnServer(invocation, path);
   TRUEPOSE_ASSIGN_OR_RETURN(const compensation::TableFile file, LoadTable(path));
   const v1::CompensationTableHeader header = convert::HeaderToProto(file.table());
   return Reply(invocation, header, [&] { return TableText(header); });
@@ -67,9 +76,12 @@ absl::Status Verify(const Invocation& invocation, const VerifyOptions& options) 
 void AddTableShow(const Command& table) {
   const auto path = std::make_shared<std::string>();
   table.Add("show", "What a table is for, and how well it was verified")
-      .Required("TABLE", "", path.get(), "File")
-      .Footer("Examples:\n  truepose table show ur10.tpct\n  truepose table show ur10.tpct --json")
-      .Run(Command::Reach::kLocal,
+      .Required("TABLE", "", path.get(),
+                "File; or ROBOT/UUID as of `table list`, a robot's name for its active table")
+      .Footer(
+          "Examples:\n  truepose table show ur10.tpct\n  truepose table show ur10\n"
+          "  truepose table show ur10.tpct --json")
+      .Run(Command::Reach::kRemote,
            [path](const Invocation& invocation) { return Show(invocation, *path); });
 }
 

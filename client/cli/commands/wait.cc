@@ -17,8 +17,9 @@ std::string StillRunningHint(const std::string& job) {
 }
 
 absl::StatusOr<v1::CalibrationJob> Wait(const Invocation& invocation, const client::Client& client,
-                                        const std::string& job, const InterruptScope& interrupt) {
-  ProgressBar bar(invocation.console, "calibrate");
+                                        const std::string& job, const InterruptScope& interrupt,
+                                        const std::string& label) {
+  ProgressBar bar(invocation.console, label);
   client::WaitOptions options;
   options.on_change = [&](const v1::CalibrationJob& now) {
     bar.Show(now.progress().fraction(),
@@ -56,8 +57,9 @@ absl::Status StatusOfError(const v1::JobError& error) {
 absl::StatusOr<v1::CalibrationJob> WaitWithProgress(const Invocation& invocation,
                                                     const client::Client& client,
                                                     const std::string& job,
-                                                    const InterruptScope& interrupt) {
-  absl::StatusOr<v1::CalibrationJob> ended = Wait(invocation, client, job, interrupt);
+                                                    const InterruptScope& interrupt,
+                                                    const std::string& label) {
+  absl::StatusOr<v1::CalibrationJob> ended = Wait(invocation, client, job, interrupt, label);
   const absl::StatusCode code = ended.status().code();
   if (code != absl::StatusCode::kCancelled && code != absl::StatusCode::kUnavailable) return ended;
   return WithHint(ended.status(), code, StillRunningHint(ShortName(job)));

@@ -16,6 +16,8 @@ std::unique_ptr<grpc::Service> BindCalibrationService(const CallContext& call,
                                                       const Executors& executors,
                                                       rpc::Drain& drain);
 
+std::unique_ptr<grpc::Service> BindCompensationTableService(const CallContext& call,
+                                                            const Executors& executors);
 std::unique_ptr<grpc::Service> BindRecalibrationService(const CallContext& call,
                                                         const Executors& executors);
 std::unique_ptr<grpc::Service> BindDownloadService(const CallContext& call,

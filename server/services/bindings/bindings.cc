@@ -13,6 +13,7 @@ std::vector<std::unique_ptr<grpc::Service>> BindServices(const CallContext& call
   services.push_back(BindPlantService(call, executors));
   services.push_back(BindSessionService(call, executors, drain));
   services.push_back(BindCalibrationService(call, executors, drain));
+  services.push_back(BindCompensationTableService(call, executors));
   services.push_back(BindRecalibrationService(call, executors));
   services.push_back(BindDownloadService(call, executors, drain, watch));
   services.push_back(BindWatchService(call, executors, drain, watch));

@@ -5,6 +5,9 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "core/base/fault.h"
+#include "core/base/status_macros.h"
+#include "server/store/calibrations.h"
+#include "server/store/compensation_tables.h"
 #include "server/store/jobs.h"
 #include "server/store/names.h"
 #include "server/store/readings.h"
@@ -109,6 +112,44 @@ std::string AddJob(Store& store, int number, const std::string& robot_id,
   MustWrite(store,
             [&](Transaction& transaction) { return CreateJob(transaction, Uuid(number), job); });
   return JobName(Uuid(number));
+}
+
+std::string AddCalibration(Store& store, int number, const std::string& robot_id, int session) {
+  const std::string name = AddJob(store, number, robot_id, {session});
+  std::string calibration;
+  MustWrite(store, [&](Transaction& transaction) -> absl::StatusOr<v1::CalibrationJob> {
+    TRUEPOSE_ASSIGN_OR_RETURN(v1::CalibrationJob job, GetJob(transaction, name));
+    v1::Calibration result = SampleCalibration();
+    result.set_nominal_revision(job.nominal_revision());
+    TRUEPOSE_ASSIGN_OR_RETURN(const v1::Calibration stored,
+                              InsertCalibration(transaction, job, result));
+    calibration = stored.name();
+    job.set_calibration(calibration);
+    job.set_state(v1::SUCCEEDED);
+    TRUEPOSE_RETURN_IF_ERROR(UpdateJob(transaction, job, 0));
+    return job;
+  });
+  return calibration;
+}
+
+std::string AddTableJob(Store& store, int number, const std::string& calibration,
+                        const std::string& robot_id) {
+  const std::string name = CompensationTableName(robot_id, Uuid(number));
+  v1::CompensationTable table;
+  table.set_name(name);
+  table.set_calibration(calibration);
+  table.mutable_spec()->set_seed(static_cast<uint64_t>(number));
+  table.set_state(v1::TABLE_BUILDING);
+  table.set_job(JobName(Uuid(number)));
+  v1::CalibrationJob job = SampleJob(robot_id, {});
+  job.clear_options();
+  job.set_input_digest(absl::StrCat("input digest ", number));
+  job.set_compensation_table(name);
+  MustWrite(store, [&](Transaction& transaction) -> absl::StatusOr<v1::CalibrationJob> {
+    TRUEPOSE_RETURN_IF_ERROR(PutTable(transaction, table));
+    return CreateJob(transaction, Uuid(number), job);
+  });
+  return name;
 }
 
 std::vector<std::string> FaultFields(const absl::Status& status) {

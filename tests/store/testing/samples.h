@@ -36,6 +36,14 @@ void AddRobotWithSession(Store& store);
 std::string AddJob(Store& store, int number, const std::string& robot_id = "ur10",
                    const std::vector<int>& sessions = {1});
 
+// The result of a job of its own over session `session`, which has SUCCEEDED. @returns its name.
+std::string AddCalibration(Store& store, int job, const std::string& robot_id = "ur10",
+                           int session = 1);
+// A table that is BUILDING and the PENDING job that builds it, both with this number. @returns the
+// table's name.
+std::string AddTableJob(Store& store, int number, const std::string& calibration,
+                        const std::string& robot_id = "ur10");
+
 // The fields of the faults that a status carries.
 std::vector<std::string> FaultFields(const absl::Status& status);
 

@@ -1,0 +1,145 @@
+// truepose table against a server in this process, whose builder is the test's own.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "absl/strings/str_cat.h"
+#include "core/base/fault.h"
+#include "server/store/checksum.h"
+#include "tests/cli/remote_fixture.h"
+
+namespace truepose::cli {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class TableRemoteTest : public RemoteFixture {
+ protected:
+  // The robot with an active calibration, on a server that builds small tables.
+  void SetUp() override {
+    runners_ = jobs::Runners(server::CalibrationRunner(), BuildTable, EstimateTable);
+    RemoteFixture::SetUp();
+    AddRobot();
+    Import();
+    Calibrate();
+  }
+  void Release() {
+    Demand({"calibration", "approve", "ur10#1", "--reason", "looked at"});
+    Demand({"calibration", "activate", "ur10#1"});
+  }
+
+  static std::string Bytes(const v1::CompensationTableInput& input) {
+    return absl::StrCat("table of ", input.calibration().digest(), " with seed ",
+                        input.spec().seed());
+  }
+  static absl::StatusOr<jobs::BuiltTable> BuildTable(const v1::CompensationTableInput& input,
+                                                     const jobs::RunnerHooks&) {
+    if (input.spec().seed() == 13) return FaultStatus("largest_bytes", "1 MB", "a smaller table");
+    jobs::BuiltTable built{Bytes(input), {}};
+    built.header.set_calibration(input.calibration().name());
+    built.header.set_verification_points(10'000);
+    built.header.mutable_verified()->set_worst_position_m(1.25e-5);
+    return built;
+  }
+  static absl::StatusOr<v1::CompensationTableEstimate> EstimateTable(
+      const v1::CompensationTableInput&) {
+    v1::CompensationTableEstimate estimate;
+    estimate.add_nodes(17);
+    estimate.add_nodes(9);
+    estimate.set_size_bytes(3 << 20);
+    return estimate;
+  }
+
+  std::string Spec(const std::string& text) {
+    std::ofstream(folder_.Path("spec.yaml")) << text;
+    return folder_.Path("spec.yaml");
+  }
+  // The file that --output named.
+  std::string Written() const {
+    std::ifstream file(folder_.Path("t.tpct"), std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  }
+};
+
+// Would catch a step that doesn't name the next, and bytes that are not the server's.
+TEST_F(TableRemoteTest, BuildListShowDownload) {
+  EXPECT_THAT(Demand({"table", "list"}).out, HasSubstr("Next: truepose table build"));
+  Release();
+  const Ran built = Demand({"table", "build", "--robot", "ur10"});
+  EXPECT_THAT(built.out, HasSubstr("of ur10#1: ready"));
+  EXPECT_THAT(built.out, HasSubstr("worst 0.0125 mm"));
+  EXPECT_THAT(built.out, HasSubstr("Next: truepose table download ur10/"));
+  EXPECT_THAT(Demand({"table", "list", "--robot", "ur10"}).out, HasSubstr("ur10#1"));
+  EXPECT_THAT(Demand({"job", "list"}).out, HasSubstr("table"));
+  const Ran fetched = Demand({"table", "download", "ur10", "--output", folder_.Path("t.tpct")});
+  EXPECT_THAT(fetched.out, HasSubstr(store::Sha256Hex(Written())));
+  EXPECT_THAT(Written(), HasSubstr("with seed 0"));
+  EXPECT_THAT(Demand({"table", "show", "ur10"}).out, HasSubstr(store::Sha256Hex(Written())));
+}
+
+// Would catch an estimate that builds.
+TEST_F(TableRemoteTest, EstimateBuildsNothing) {
+  Release();
+  const Ran estimated = Demand({"table", "estimate", "--calibration", "ur10#1"});
+  EXPECT_THAT(estimated.out, HasSubstr("17 x 9 nodes, 3.00 MB"));
+  EXPECT_THAT(Demand({"table", "list"}).out, HasSubstr("No tables"));
+}
+
+// Would catch a draft that is taken for a release, and faults in the words of the message.
+TEST_F(TableRemoteTest, RefusalsAreInTheWordsOfTheCommandLine) {
+  const Ran draft = Remote({"table", "build", "--calibration", "ur10#1"});
+  EXPECT_EQ(draft.code, 1);
+  EXPECT_THAT(draft.err, HasSubstr("--calibration: found robots/ur10/calibrations/1, which is a "
+                                   "DRAFT"));
+  Demand({"table", "build", "--calibration", "ur10#1", "--allow-draft"});
+  const Ran faulty = Remote({"table", "build", "--calibration", "ur10#1", "--allow-draft", "--spec",
+                             Spec("verification_points: 3\n")});
+  EXPECT_EQ(faulty.code, 3);
+  EXPECT_THAT(faulty.err, HasSubstr("--spec: verification_points"));
+  EXPECT_EQ(Remote({"table", "build"}).code, 2);
+  EXPECT_EQ(Remote({"table", "show", "ur10"}).code, 6);
+}
+
+// Would catch a build that failed and is reported as done.
+TEST_F(TableRemoteTest, AFailedBuildFails) {
+  Release();
+  const Ran failed = Remote({"table", "build", "--robot", "ur10", "--spec", Spec("seed: 13\n"),
+                             "--output", folder_.Path("t.tpct")});
+  EXPECT_NE(failed.code, 0);
+  EXPECT_THAT(failed.err, HasSubstr("largest_bytes"));
+  EXPECT_FALSE(std::filesystem::exists(folder_.Path("t.tpct")));
+  EXPECT_THAT(Demand({"table", "list"}).out, HasSubstr("failed"));
+}
+
+// Would catch a spec that is set and not followed, or can't be taken away.
+TEST_F(TableRemoteTest, ARobotsSpecIsFollowed) {
+  Demand(
+      {"robot", "update", "ur10", "--table-spec", Spec("seed: 7\nposition_tolerance_mm: 0.05\n")});
+  Release();
+  const Ran table = Demand({"table", "build", "--robot", "ur10"});
+  EXPECT_THAT(table.out, HasSubstr("ready"));
+  EXPECT_THAT(Demand({"table", "list", "--json"}).out, HasSubstr(R"("seed":"7")"));
+  Demand({"table", "download", "ur10", "--output", folder_.Path("t.tpct")});
+  EXPECT_THAT(Written(), HasSubstr("with seed 7"));
+  Demand({"robot", "update", "ur10", "--set", "table_spec="});
+  EXPECT_THAT(Demand({"robot", "show", "ur10", "--json"}).out, Not(HasSubstr("table_spec")));
+}
+
+// Would catch a delete that can't be taken back.
+TEST_F(TableRemoteTest, DeleteAndUndelete) {
+  Release();
+  const Ran built = Demand({"table", "build", "--robot", "ur10"});
+  const size_t begin = built.out.find("ur10/");
+  const std::string name = built.out.substr(begin, std::string("ur10/").size() + 36);
+  Demand({"table", "delete", name});
+  EXPECT_THAT(Demand({"table", "list"}).out, HasSubstr("No tables"));
+  EXPECT_EQ(Remote({"table", "show", "ur10"}).code, 6);
+  Demand({"table", "undelete", name});
+  EXPECT_THAT(Demand({"table", "show", "ur10"}).out, HasSubstr(name));
+}
+
+}  // namespace
+}  // namespace truepose::cli
