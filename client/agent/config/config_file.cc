@@ -139,6 +139,10 @@ absl::StatusOr<AgentConfig> ParseConfig(std::string_view text, const std::string
   TRUEPOSE_RETURN_IF_ERROR(faults.ToStatus());
   MakeAbsolute(path, &config.spool);
   MakeAbsolute(path, &config.token_file);
+  for (SourceSettings& source : config.sources) {
+    const auto of_source = source.values.find("path");
+    if (of_source != source.values.end()) MakeAbsolute(path, &of_source->second);
+  }
   return config;
 }
 

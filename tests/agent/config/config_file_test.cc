@@ -29,7 +29,7 @@ joints = 7
 [[source]]
 kind = "csv"
 robot = "kuka"
-path = "/data/tracker.csv"
+path = "data/tracker.csv"
 settle_s = 0.5
 follow = true
 )";
@@ -61,9 +61,10 @@ TEST(ConfigFileTest, EveryKey) {
   EXPECT_EQ(config->robots[1].joints, 7);
   ASSERT_EQ(config->sources.size(), 1u);
   EXPECT_EQ(config->sources[0].robot, "robots/kuka");
-  EXPECT_EQ(config->sources[0].values,
-            (std::map<std::string, std::string>{
-                {"path", "/data/tracker.csv"}, {"settle_s", "0.5"}, {"follow", "true"}}));
+  EXPECT_EQ(
+      config->sources[0].values,
+      (std::map<std::string, std::string>{
+          {"path", "/etc/truepose/data/tracker.csv"}, {"settle_s", "0.5"}, {"follow", "true"}}));
 }
 
 // Would catch a person who mends one fault only to be told of the next.
