@@ -4,7 +4,7 @@
 // With E(q) the table's correction (table.h), joints q' are looked for at which
 //   nominal chain with E(q') before Z_n  =  X_nominal(q),
 // by Newton steps with the nominal Jacobian, E looked up again at every step. Six joints take one
-// Jacobian and some steps (0.5 us); other arms go through SolveLeastSquares, once or twice for each
+// Jacobian and some steps; other arms go through SolveLeastSquares, once or twice for each
 // lookup: with more joints the nearest solution, with fewer the least remainder in the coordinates
 // that matter (ExactOptions).
 #pragma once

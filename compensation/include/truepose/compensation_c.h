@@ -134,8 +134,8 @@ TRUEPOSE_API void truepose_compensation_info(const truepose_compensation* compen
 TRUEPOSE_API int truepose_compensation_axis(const truepose_compensation* compensation, int axis,
                                             truepose_axis* found);
 
-/* By the table, below a microsecond: joints at which the flange stands where the nominal one would
- * at q. q has `joints` numbers. The same outcome is returned and in the correction. */
+/* By the table, in about a microsecond: joints at which the flange stands where the nominal one
+ * would at q. q has `joints` numbers. The same outcome is returned and in the correction. */
 TRUEPOSE_API truepose_outcome truepose_compensation_correct_joints(
     const truepose_compensation* compensation, const double* q, truepose_correction* correction);
 
