@@ -52,7 +52,7 @@ ALLOWED = {
     "client/agent": ("core/base", "compensation", "client", "proto", "io", "cli11", "json", "spdlog", "toml"),
     "client/agent/sources": ("core/base", "formats", "client/agent", "proto", "io", "json"),
     # No part of the agent itself: a robot that is made up.
-    "client/agent/simulated": ("core", "convert", "client/agent", "proto", "io"),
+    "client/agent/simulated": ("core", "convert", "formats", "client/agent", "proto", "io", "cli11"),
     "client": ("core/base", "proto", "grpc", "io", "openssl"),
     "tests": (
         "core", "compensation", "formats", "programs", "convert", "server", "client", "bench", "proto", "grpc", "sqlite",

@@ -70,6 +70,11 @@ SimulatedSource::SimulatedSource(std::shared_ptr<const Cell> cell, SimulatedOpti
       clock_(std::move(clock)),
       at_(MiddleOf(cell_->robot())) {}
 
+std::string SimulatedSource::name() const {
+  const std::string label = options_.label.empty() ? "" : " " + options_.label;
+  return absl::StrCat("simulated ", options_.robot, label);
+}
+
 absl::Time SimulatedSource::TimeNow() const { return kStart + absl::Seconds(Now()); }
 
 absl::Status SimulatedSource::Run(ReadingSink& sink, const Stop& stop) {
@@ -144,7 +149,7 @@ v1::Reading SimulatedSource::ReadingAt(const Joints& read, const Joints& target,
   v1::Reading reading;
   reading.mutable_joints_measured()->Add(read.begin(), read.end());
   reading.mutable_joints_commanded()->Add(target.begin(), target.end());
-  const Pose X_MT = cell_->Measure(Vector(read), Now(), number);
+  const Pose X_MT = cell_->Measure(Vector(read), Now(), options_.noise_from + number);
   *reading.mutable_position_m() = convert::ToProto(X_MT.p);
   *reading.mutable_orientation() = convert::QuaternionToProto(X_MT.R);
   reading.set_time(absl::FormatTime(absl::RFC3339_full, TimeNow(), absl::UTCTimeZone()));

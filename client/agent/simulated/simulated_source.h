@@ -15,6 +15,7 @@ namespace truepose::agent {
 
 struct SimulatedOptions {
   std::string robot;                         // robots/{robot}
+  std::string label = {};                    // tells sessions of one robot apart, such as "check 1"
   v1::Session content = {};                  // of its sessions; robot is set from above
   std::vector<std::vector<double>> targets;  // controller joints; without them 40 are drawn
   // Simulated seconds for a real one; 0 = as fast as the sink takes readings.
@@ -27,6 +28,7 @@ struct SimulatedOptions {
   // targets.
   bool for_requests = false;
   std::chrono::milliseconds poll{200};  // for requests
+  uint64_t noise_from = 0;  // reading i has the noise of number noise_from + i (Cell::Measure)
 };
 
 // What a robot reads on its way to `to` and there, t_s after it set out: an even start and stop,
@@ -42,7 +44,8 @@ class SimulatedSource : public Source {
   SimulatedSource(std::shared_ptr<const Cell> cell, SimulatedOptions options,
                   std::function<double()> clock = {});
 
-  std::string name() const override { return "simulated " + options_.robot; }
+  // "simulated robots/ur10", and the label.
+  std::string name() const override;
   absl::Status Run(ReadingSink& sink, const Stop& stop) override;
 
  private:
