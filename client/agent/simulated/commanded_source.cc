@@ -87,8 +87,8 @@ absl::Status CommandedSource::Do(const std::string& line, ReadingSink& sink, con
   int poses = words[0] == "check" ? 30 : 60;
   const bool good = words.size() == 1 || (words.size() == 2 && absl::SimpleAtoi(words[1], &poses) &&
                                           poses > 0 && poses <= kMostPoses);
-  if (good && words[0] == "calibrate") return Measure(v1::SESSION_CALIBRATION, poses, sink, stop);
-  if (good && words[0] == "check") return Measure(v1::SESSION_CHECK, poses, sink, stop);
+  if (good && words[0] == "calibrate") return Measure(v1::CALIBRATION, poses, sink, stop);
+  if (good && words[0] == "check") return Measure(v1::CHECK, poses, sink, stop);
   if (words != std::vector<std::string>{"bump"})
     return absl::InvalidArgumentError(absl::StrCat("found '", line,
                                                    "', expected calibrate [POSES], "

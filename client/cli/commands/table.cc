@@ -61,10 +61,8 @@ absl::StatusOr<v1::CompensationTableSpec> LoadTableSpec(const TableOptions& opti
 }
 
 absl::StatusOr<v1::CompensationTableInput> LoadTableInput(const TableOptions& options) {
-  if (options.allow_draft || options.no_wait)
-    return UsageError("--allow-draft and --no-wait are for a server");
-  if (options.calibration.empty()) return UsageError("--local needs --calibration FILE");
   if (options.robot.empty()) return UsageError("--local needs --robot FILE");
+  if (options.calibration.empty()) return UsageError("--local needs --calibration FILE");
   TRUEPOSE_ASSIGN_OR_RETURN(const formats::RobotFile robot, LoadRobot(options.robot, options.ends));
   TRUEPOSE_ASSIGN_OR_RETURN(v1::Calibration calibration, LoadCalibration(options.calibration));
   TRUEPOSE_RETURN_IF_ERROR(CheckBelongsTogether(calibration, robot.nominal, options.robot));
@@ -106,7 +104,7 @@ std::string EstimateText(const v1::CompensationTableEstimate& estimate) {
 }
 
 void AddTable(const Command& root) {
-  const Command table = root.Add("table", "Build, look at, check and fetch compensation tables");
+  const Command table = root.Add("table", "Build, look at and check compensation tables");
   AddTableEstimate(table);
   AddTableBuild(table);
   AddTableShow(table);

@@ -16,12 +16,12 @@ namespace truepose::cli {
 // Of `estimate` and `build`: what a table is made from.
 struct TableOptions {
   bool local = false;
-  std::string robot, calibration;  // names, with --local files
+  std::string robot, calibration;  // with --local files
   formats::UrdfEnds ends;
-  std::string spec;                           // a file
-  std::vector<std::string> set;               // KEY=VALUE
-  bool allow_draft = false, no_wait = false;  // of a server
+  std::string spec;              // a file
+  std::vector<std::string> set;  // KEY=VALUE
   std::string output;
+  bool allow_draft = false, no_wait = false;  // only without --local
 };
 
 // --spec and --set.

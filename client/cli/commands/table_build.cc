@@ -49,43 +49,44 @@ absl::Status EstimateLocally(const Invocation& invocation, const TableOptions& o
   return Reply(invocation, *estimate, [&] { return EstimateText(*estimate); });
 }
 
-absl::StatusOr<RemoteTable> RemoteOf(const TableOptions& options) {
+const Command& AddSources(const Command& command, TableOptions* options) {
+  command.Option("--local", "", &options->local, "Compute here, from files, without a server")
+      .Option("--calibration", "NAME|FILE", &options->calibration,
+              "Such as ur10#1; with --local a file; default: the robot's active one")
+      .Option("--robot", "NAME|FILE", &options->robot, "Such as ur10; with --local the robot file")
+      .Option("--urdf-base", "LINK", &options->ends.base, kUrdfBaseHelp)
+      .Option("--urdf-tip", "LINK", &options->ends.tip, kUrdfTipHelp);
+  AddTableSpecOptions(command, options);
+  return command;
+}
+
+const Command& AddAllowDraft(const Command& command, TableOptions* options) {
+  return command.Option("--allow-draft", "", &options->allow_draft,
+                        "Also of a calibration that nobody has approved, for trying it");
+}
+
+// Without --spec and --set the robot's table_spec, else all defaults.
+absl::StatusOr<RemoteTable> RemoteFrom(const TableOptions& options) {
   TRUEPOSE_RETURN_IF_ERROR(CheckNoEnds(options.ends));
-  RemoteTable wanted{options.robot,
-                     options.calibration,
-                     {},
-                     !options.spec.empty() || !options.set.empty(),
-                     options.allow_draft,
-                     options.no_wait,
-                     options.output};
+  RemoteTable wanted{.robot = options.robot,
+                     .calibration = options.calibration,
+                     .spec = {},
+                     .has_spec = !options.spec.empty() || !options.set.empty(),
+                     .allow_draft = options.allow_draft,
+                     .no_wait = options.no_wait,
+                     .output = options.output};
   TRUEPOSE_ASSIGN_OR_RETURN(wanted.spec, LoadTableSpec(options));
   return wanted;
 }
 
-absl::Status Build(const Invocation& invocation, const TableOptions& options) {
-  if (options.local) return BuildLocally(invocation, options);
-  TRUEPOSE_ASSIGN_OR_RETURN(const RemoteTable wanted, RemoteOf(options));
-  return BuildTableOnServer(invocation, wanted);
-}
-
-absl::Status Estimate(const Invocation& invocation, const TableOptions& options) {
-  if (options.local) return EstimateLocally(invocation, options);
-  TRUEPOSE_ASSIGN_OR_RETURN(const RemoteTable wanted, RemoteOf(options));
+absl::Status EstimateRemotely(const Invocation& invocation, const TableOptions& options) {
+  TRUEPOSE_ASSIGN_OR_RETURN(const RemoteTable wanted, RemoteFrom(options));
   return EstimateTableOnServer(invocation, wanted);
 }
 
-const Command& AddSources(const Command& command, TableOptions* options) {
-  command.Option("--local", "", &options->local, "Compute here, from files, without a server")
-      .Option("--robot", "NAME|FILE", &options->robot,
-              "Such as ur10: its active calibration; with --local the robot file")
-      .Option("--calibration", "NAME|FILE", &options->calibration,
-              "Such as ur10#3; with --local a file")
-      .Option("--urdf-base", "LINK", &options->ends.base, kUrdfBaseHelp)
-      .Option("--urdf-tip", "LINK", &options->ends.tip, kUrdfTipHelp)
-      .Option("--allow-draft", "", &options->allow_draft,
-              "Also of a calibration that nobody has approved, for trying it");
-  AddTableSpecOptions(command, options);
-  return command;
+absl::Status BuildRemotely(const Invocation& invocation, const TableOptions& options) {
+  TRUEPOSE_ASSIGN_OR_RETURN(const RemoteTable wanted, RemoteFrom(options));
+  return BuildTableOnServer(invocation, wanted);
 }
 
 }  // namespace
@@ -94,32 +95,36 @@ void AddTableEstimate(const Command& table) {
   const auto options = std::make_shared<TableOptions>();
   const Command command =
       table.Add("estimate", "Nodes, size and error of a table, without building it");
-  AddSources(command, options.get())
+  AddAllowDraft(AddSources(command, options.get()), options.get())
       .Footer(absl::StrCat(
           kTableSpecHelp,
           "\nExamples:\n  truepose table estimate --robot ur10 --spec cell.yaml\n"
-          "  truepose table estimate --local --robot ur10.yaml --calibration ur10.json --spec "
-          "cell.yaml --set position_tolerance_mm=0.05"))
-      .Run(Command::Reach::kRemote,
-           [options](const Invocation& invocation) { return Estimate(invocation, *options); });
+          "  truepose table estimate --local --robot ur10.yaml --calibration "
+          "ur10.json --spec cell.yaml\n  truepose table estimate --local --robot ur10.yaml "
+          "--calibration ur10.json --spec cell.yaml --set position_tolerance_mm=0.05"))
+      .Run(Command::Reach::kRemote, [options](const Invocation& invocation) {
+        const auto estimate = options->local ? EstimateLocally : EstimateRemotely;
+        return estimate(invocation, *options);
+      });
 }
 
 void AddTableBuild(const Command& table) {
   const auto options = std::make_shared<TableOptions>();
   const Command command = table.Add("build", "Build and verify a table");
-  AddSources(command, options.get())
-      .Option("--no-wait", "", &options->no_wait, "On a server: only queue the job")
+  AddAllowDraft(AddSources(command, options.get()), options.get())
+      .Option("--no-wait", "", &options->no_wait, "Only queue the job of a server")
       .Option("-o,--output", "FILE", &options->output,
-              "Where the table goes; on a server it can stay there")
-      .Footer(absl::StrCat(
-          kTableSpecHelp,
-          "Without --spec and --set a server takes the robot's table_spec.\n"
-          "\nExamples:\n  truepose table build --robot ur10 --output ur10.tpct\n"
-          "  truepose table build --calibration ur10#3 --spec cell.yaml\n"
-          "  truepose table build --local --robot ur10.yaml --calibration ur10.json --spec "
-          "cell.yaml --output ur10.tpct"))
-      .Run(Command::Reach::kRemote,
-           [options](const Invocation& invocation) { return Build(invocation, *options); });
+              "Where the table goes; without it a server keeps it")
+      .Footer(
+          absl::StrCat(kTableSpecHelp,
+                       "\nExamples:\n  truepose table build --robot ur10 --output ur10.tpct\n"
+                       "  truepose table build --calibration ur10#3 --spec cell.yaml\n"
+                       "  truepose table build --local --robot ur10.yaml --calibration ur10.json "
+                       "--spec cell.yaml --output ur10.tpct\n  truepose table show ur10.tpct"))
+      .Run(Command::Reach::kRemote, [options](const Invocation& invocation) {
+        const auto build = options->local ? BuildLocally : BuildRemotely;
+        return build(invocation, *options);
+      });
 }
 
 }  // namespace truepose::cli

@@ -3,7 +3,6 @@
 #include <memory>
 #include <utility>
 
-#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "client/cli/commands/table.h"
 #include "client/cli/commands/table_remote.h"
@@ -24,16 +23,16 @@ struct VerifyOptions {
   unsigned long long seed = 2;
 };
 
-// What is no file is a name on the server.
-bool IsFile(const std::string& typed) {
-  return std::filesystem::exists(typed) || absl::EndsWith(typed, ".tpct");
-}
-
 absl::Status Show(const Invocation& invocation, const std::string& path) {
-  if (!IsFile(path)) return ShowTableOnServer(invocation, path);
   TRUEPOSE_ASSIGN_OR_RETURN(const compensation::TableFile file, LoadTable(path));
   const v1::CompensationTableHeader header = convert::HeaderToProto(file.table());
   return Reply(invocation, header, [&] { return TableText(header); });
+}
+
+// Names on a server have no dot.
+bool IsFile(const std::string& typed) {
+  std::error_code error;
+  return typed.find('.') != std::string::npos || std::filesystem::is_regular_file(typed, error);
 }
 
 std::string Millimetres(double length_m) { return Fixed(1e3 * length_m, 4); }
@@ -77,12 +76,13 @@ void AddTableShow(const Command& table) {
   const auto path = std::make_shared<std::string>();
   table.Add("show", "What a table is for, and how well it was verified")
       .Required("TABLE", "", path.get(),
-                "File; or ROBOT/UUID as of `table list`, a robot's name for its active table")
+                "File; on a server ROBOT/UUID, or a robot's name for its active table")
       .Footer(
-          "Examples:\n  truepose table show ur10.tpct\n  truepose table show ur10\n"
-          "  truepose table show ur10.tpct --json")
-      .Run(Command::Reach::kRemote,
-           [path](const Invocation& invocation) { return Show(invocation, *path); });
+          "Examples:\n  truepose table show ur10.tpct\n  truepose table show ur10.tpct --json\n"
+          "  truepose table show ur10")
+      .Run(Command::Reach::kRemote, [path](const Invocation& invocation) {
+        return IsFile(*path) ? Show(invocation, *path) : ShowTableOnServer(invocation, *path);
+      });
 }
 
 void AddTableVerify(const Command& table) {
