@@ -7,6 +7,7 @@
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
 #include "core/drift/drift_findings.h"
+#include "core/drift/drift_pairs.h"
 #include "core/drift/drift_parts.h"
 #include "core/drift/drift_tests.h"
 #include "core/identification/candidate_values.h"
@@ -50,15 +51,6 @@ absl::StatusOr<Estimate> StartOf(const DriftProblem& problem, const Hooks& hooks
   return found;
 }
 
-// What is known once nothing, and everything, was allowed to change.
-struct Fits {
-  Freedom legitimate;
-  DriftFit none, all;
-  std::vector<CandidatePart> parts;
-  std::vector<DriftFit> of_parts;
-  DriftSums sums;
-};
-
 absl::Status CheckRows(const DriftFitter& fitter, const DriftFit& all) {
   if (fitter.rows() > all.rank) return absl::OkStatus();
   FaultList faults;
@@ -67,9 +59,9 @@ absl::Status CheckRows(const DriftFitter& fitter, const DriftFit& all) {
   return faults.ToStatus(absl::StatusCode::kFailedPrecondition);
 }
 
-absl::StatusOr<Fits> FitAll(const DriftProblem& problem, const DriftFitter& fitter,
-                            const Hooks& hooks) {
-  Fits fits{LegitimateChanges(problem), {}, {}, PartsOf(problem), {}, {}};
+absl::StatusOr<SingleFits> FitAll(const DriftProblem& problem, const DriftFitter& fitter,
+                                  const Hooks& hooks) {
+  SingleFits fits{LegitimateChanges(problem), {}, {}, PartsOf(problem), {}, {}};
   Freedom everything = fits.legitimate;
   for (const CandidatePart& part : fits.parts) everything = everything + part.freedom;
   fits.none = fitter.Fit(fits.legitimate);
@@ -88,17 +80,7 @@ absl::StatusOr<Fits> FitAll(const DriftProblem& problem, const DriftFitter& fitt
   return fits;
 }
 
-// The largest motion among the frames of a part: six changes each.
-void FrameChange(const Eigen::VectorXd& changes, DriftPart* part) {
-  for (Eigen::Index i = 0; i + kFrameParameters <= changes.size(); i += kFrameParameters) {
-    const double length = changes.segment<3>(i).norm(), angle = changes.segment<3>(i + 3).norm();
-    if (length + angle <= part->change_m + part->change_rad) continue;
-    part->change_m = length;
-    part->change_rad = angle;
-  }
-}
-
-DriftPart PartOf(const DriftProblem& problem, const Fits& fits, size_t i) {
+DriftPart PartOf(const DriftProblem& problem, const SingleFits& fits, size_t i) {
   const CandidatePart& candidate = fits.parts[i];
   const DriftFit& fit = fits.of_parts[i];
   DriftPart part;
@@ -109,29 +91,31 @@ DriftPart PartOf(const DriftProblem& problem, const Fits& fits, size_t i) {
   part.bic = -part.chi_square / fits.sums.Scale() +
              part.degrees_of_freedom * std::log(static_cast<double>(fit.whitened.size()));
   const auto legitimate = static_cast<Eigen::Index>(fits.legitimate.candidates.size());
-  const Eigen::VectorXd changes = fit.changes.tail(fit.changes.size() - legitimate);
-  if (candidate.kind != CandidatePart::Kind::kJoint) {
-    FrameChange(changes, &part);
-  } else {
-    const int joint = candidate.freedom.joints[0];
-    const bool turns = problem.robot->joints()[joint].type == JointType::kRevolute;
-    (turns ? part.change_rad : part.change_m) = std::abs(changes(changes.size() - 1));
-  }
+  const auto frames = static_cast<Eigen::Index>(candidate.freedom.candidates.size());
+  SetChange(problem, candidate, fit.changes.segment(legitimate, frames), fit.joints, &part);
   return part;
 }
 
 // Whether all parts together explain more than this one does.
-bool LeavesMore(const Fits& fits, const DriftPart& part) {
+bool LeavesMore(const SingleFits& fits, const DriftPart& part) {
   const int freedom = fits.sums.drop_freedom - part.degrees_of_freedom;
   const double more = fits.sums.drop - part.chi_square;
   return DropProbability(fits.sums, more, freedom) < kBeyondOnePart;
 }
 
-std::string Attributed(const Fits& fits, const std::vector<DriftPart>& parts) {
+std::string Attributed(const SingleFits& fits, const std::vector<DriftPart>& parts) {
   if (parts.empty() || LeavesMore(fits, parts[0])) return "";
   if (parts[0].p_value * static_cast<double>(parts.size()) >= kChanged) return "";
   if (parts.size() > 1 && parts[1].bic - parts[0].bic < kLeastLead) return "";
   return parts[0].name;
+}
+
+void NameTwo(const DriftProblem& problem, const DriftFitter& fitter, const SingleFits& fits,
+             DriftCheckResult* result) {
+  std::optional<std::vector<DriftPart>> both = ChangedTogether(problem, fitter, fits);
+  if (!both.has_value()) return;
+  result->attributed_to = absl::StrCat((*both)[0].name, " and ", (*both)[1].name);
+  result->together = *std::move(both);
 }
 
 // Errors under the calibration as it is: held frames exactly there.
@@ -155,7 +139,7 @@ absl::StatusOr<DriftCheckResult> CheckDrift(const DriftProblem& whole, const Hoo
   Thin(&problem.check.readings);
   TRUEPOSE_ASSIGN_OR_RETURN(const Estimate start, StartOf(problem, hooks));
   const DriftFitter fitter(problem, start);
-  TRUEPOSE_ASSIGN_OR_RETURN(const Fits fits, FitAll(problem, fitter, hooks));
+  TRUEPOSE_ASSIGN_OR_RETURN(const SingleFits fits, FitAll(problem, fitter, hooks));
   DriftCheckResult result;
   result.poses = static_cast<int>(problem.check.readings.size());
   result.position_m = PositionOf(problem, fitter, start);
@@ -170,6 +154,7 @@ absl::StatusOr<DriftCheckResult> CheckDrift(const DriftProblem& whole, const Hoo
                    [](const DriftPart& a, const DriftPart& b) { return a.bic < b.bic; });
   if (result.changed) result.attributed_to = Attributed(fits, result.parts);
   const bool more = !result.parts.empty() && LeavesMore(fits, result.parts[0]);
+  if (result.changed && more) NameTwo(problem, fitter, fits, &result);
   result.findings = FindingsOf(result, fits.sums, more);
   return result;
 }

@@ -4,7 +4,7 @@
 //   - its own drop is significant at 0.01 among all parts (Bonferroni);
 //   - its BIC (-drop / scale + k ln(rows), least is best) is the least by at least 2;
 //   - what all parts together explain beyond it is not significant at 0.001: else more than one
-//     part has changed, or something that is no part.
+//     part has changed (two are looked for, drift_pairs.h), or something that is no part.
 // Base is a part only where the check's frame of the instrument is that of the calibration, tool
 // only where the target is: the caller says so with base_held and tool_held. Where not, the frame
 // is fitted to the check, and the findings say that it can't be observed.

@@ -26,7 +26,14 @@ std::string Overall(const DriftCheckResult& result) {
       result.p_value, result.poses, result.position_m.rms * kMmPerM);
 }
 
+std::string Both(const DriftCheckResult& result) {
+  const DriftPart &a = result.together[0], &b = result.together[1];
+  return absl::StrCat("No single part explains it, but two do: ", a.name, " by ", ChangeText(a),
+                      ", and ", b.name, " by ", ChangeText(b), ".");
+}
+
 std::string WhereItIs(const DriftCheckResult& result, bool more) {
+  if (!result.together.empty()) return Both(result);
   if (!result.attributed_to.empty())
     return absl::StrFormat(
         "It points to %s: a change of %s explains %.0f of the chi-square of %.0f.",

@@ -1,5 +1,7 @@
 #include "core/drift/drift_parts.h"
 
+#include <cmath>
+
 #include "absl/strings/str_cat.h"
 
 namespace truepose {
@@ -25,6 +27,16 @@ bool MovesOnly(const Robot& robot, int j, int i) {
   return column.isZero(0);
 }
 
+// The largest motion among the frames of a part: six changes each.
+void FrameChange(const Eigen::VectorXd& changes, DriftPart* part) {
+  for (Eigen::Index i = 0; i + kFrameParameters <= changes.size(); i += kFrameParameters) {
+    const double length = changes.segment<3>(i).norm(), angle = changes.segment<3>(i + 3).norm();
+    if (length + angle <= part->change_m + part->change_rad) continue;
+    part->change_m = length;
+    part->change_rad = angle;
+  }
+}
+
 }  // namespace
 
 std::vector<CandidatePart> PartsOf(const DriftProblem& problem) {
@@ -47,6 +59,15 @@ Freedom LegitimateChanges(const DriftProblem& problem) {
   for (size_t i = 0; i < problem.check.offsets.size(); ++i)
     freedom.candidates.push_back(problem.check.FirstOfOffsets() + static_cast<int>(i));
   return freedom;
+}
+
+void SetChange(const DriftProblem& problem, const CandidatePart& candidate,
+               const Eigen::VectorXd& frames, const Eigen::VectorXd& joints, DriftPart* part) {
+  if (candidate.kind != CandidatePart::Kind::kJoint) return FrameChange(frames, part);
+  const int joint = candidate.freedom.joints[0];
+  const bool turns =
+      problem.robot->joints()[static_cast<size_t>(joint)].type == JointType::kRevolute;
+  (turns ? part->change_rad : part->change_m) = std::abs(joints(joint));
 }
 
 }  // namespace truepose

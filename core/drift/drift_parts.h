@@ -22,6 +22,12 @@ struct CandidatePart {
 
 std::vector<CandidatePart> PartsOf(const DriftProblem& problem);
 
+// The part's change into change_m and change_rad: of several frames that which moved most.
+// @param frames changes of the part's candidates, six a frame; @param joints of all controller
+// joints.
+void SetChange(const DriftProblem& problem, const CandidatePart& candidate,
+               const Eigen::VectorXd& frames, const Eigen::VectorXd& joints, DriftPart* part);
+
 // Frames that may have moved legitimately, and unknown constants of distances: free in every fit.
 Freedom LegitimateChanges(const DriftProblem& problem);
 

@@ -51,10 +51,11 @@ struct DriftCheckResult {
   Statistics position_m;  // under the calibration, frames fitted where they are not held
   double chi_square = 0;  // of all of them, against C and S
   int degrees_of_freedom = 0;
-  double p_value = 1;            // drift_tests.h
-  bool changed = false;          // p_value below 0.01
-  std::string attributed_to;     // name of a part, "" none
-  std::vector<DriftPart> parts;  // likeliest first
+  double p_value = 1;               // drift_tests.h
+  bool changed = false;             // p_value below 0.01
+  std::string attributed_to;        // name of a part, or of two: "joint 2 and joint 5"; "" none
+  std::vector<DriftPart> together;  // those two with their changes alone; empty of one part
+  std::vector<DriftPart> parts;     // likeliest first
   bool base_observable = false, tool_observable = false;
   std::vector<std::string> findings;  // sentences
 };

@@ -151,14 +151,30 @@ TEST_F(DriftTest, FramesThatMayHaveMoved) {
   EXPECT_EQ(MustCheck(problem).attributed_to, "joint 3");
 }
 
-// Two joints at once are no single part's change.
+// Two joints at once are no single part's change. Would catch a name that stands for half of it,
+// and changes that are told of the wrong one.
 TEST_F(DriftTest, TwoChangesAreNotOne) {
   offset_(1) = 0.06 * kDeg;
   offset_(4) = -0.1 * kDeg;
   const DriftCheckResult result = MustCheck(Check(30));
   EXPECT_TRUE(result.changed);
-  EXPECT_EQ(result.attributed_to, "");
+  EXPECT_EQ(result.attributed_to, "joint 2 and joint 5");
+  ASSERT_EQ(result.together.size(), 2u);
+  // Instrument noise, and what the calibration leaves uncertain, are a tenth of these.
+  EXPECT_NEAR(result.together[0].change_rad, 0.06 * kDeg, 0.02 * kDeg);
+  EXPECT_NEAR(result.together[1].change_rad, 0.1 * kDeg, 0.03 * kDeg);
   EXPECT_TRUE(Says(result, "No single part"));
+}
+
+// Three at once are not two. Would catch a pair that is named whatever it leaves.
+TEST_F(DriftTest, ThreeChangesAreNotTwo) {
+  offset_(1) = 0.06 * kDeg;
+  offset_(2) = 0.08 * kDeg;
+  offset_(4) = -0.1 * kDeg;
+  const DriftCheckResult result = MustCheck(Check(30));
+  EXPECT_TRUE(result.changed);
+  EXPECT_EQ(result.attributed_to, "");
+  EXPECT_TRUE(result.together.empty());
 }
 
 // A robot that has become rough: no part moves, every reading scatters. Would catch a test of the
