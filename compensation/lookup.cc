@@ -38,7 +38,7 @@ struct Pair {
     b += weight * Eigen::Map<const Four>(at + 4);
     c += weight * Eigen::Map<const Four>(at + 8);
   }
-  Twist At(float along) const {
+  Delta At(float along) const {
     Eigen::Array<float, 12, 1> nodes;
     nodes << a, b, c;
     return (nodes.head<6>() + along * (nodes.tail<6>() - nodes.head<6>())).matrix().cast<double>();
@@ -47,7 +47,7 @@ struct Pair {
 
 // The sum over 2^axes corners, in the order of Grid::corner.
 template <int axes>
-Twist Interpolate(const Grid& grid, const Cell& cell) {
+Delta Interpolate(const Grid& grid, const Cell& cell) {
   constexpr int kCorners = 1 << (axes - 1);
   std::array<float, kCorners> weight;
   weight[0] = 1;
@@ -64,7 +64,7 @@ Twist Interpolate(const Grid& grid, const Cell& cell) {
 }
 
 // For more unfolded axes than corners are listed for.
-Twist InterpolateMany(const Grid& grid, const Cell& cell) {
+Delta InterpolateMany(const Grid& grid, const Cell& cell) {
   Pair pair;
   for (int corner = 0; corner < 1 << (grid.unfolded - 1); ++corner) {
     float weight = 1;
@@ -79,7 +79,7 @@ Twist InterpolateMany(const Grid& grid, const Cell& cell) {
   return pair.At(cell.along[grid.unfolded - 1]);
 }
 
-Twist InterpolateAt(const Table& table, const double* u) {
+Delta InterpolateAt(const Table& table, const double* u) {
   const Cell cell = CellAt(table, u);
   switch (table.grid.unfolded) {
     case 0:

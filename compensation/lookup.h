@@ -10,7 +10,7 @@
 
 namespace truepose::compensation {
 
-using Twist = Eigen::Matrix<double, 6, 1>;  // (t, r), see table.h
+using Delta = Eigen::Matrix<double, 6, 1>;  // (t, r), see table.h
 
 // What the axes come to, for each joint and unfolded axis; MakeTable fills it.
 struct Grid {
@@ -40,6 +40,8 @@ struct Table {
   std::array<TableAxis, kMaxJoints> axis;
   std::span<const float> nodes;
   Grid grid;
+  bool plain_joints = true;  // the controller's joints are the chain's
+  Eigen::Matrix<double, kMaxJoints, kMaxJoints> controller_from_chain;  // inverse of joint_scale
 };
 
 // @pre CheckTable accepts the fields.
@@ -57,7 +59,7 @@ enum class LookupFault { kNone, kOutside, kNotFinite };
 struct Lookup {
   LookupFault fault = LookupFault::kNone;
   int axis = -1;                // of kOutside: the first that is left
-  Twist delta = Twist::Zero();  // zero unless kNone
+  Delta delta = Delta::Zero();  // zero unless kNone
 };
 
 // Multilinear interpolation of the nodes around q_chain, never extrapolation.

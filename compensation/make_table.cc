@@ -1,4 +1,5 @@
-#include <cmath>
+#include <Eigen/Dense>
+#include <limits>
 
 #include "compensation/lookup.h"
 
@@ -38,12 +39,27 @@ void ListCorners(Grid* grid) {
   }
 }
 
+void InvertJointMap(Table* table) {
+  using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxJoints,
+                               kMaxJoints>;
+  const int n = table->header.joints;
+  const Square scale = table->arm.joint_scale.topLeftCorner(n, n);
+  table->controller_from_chain.setIdentity();
+  table->controller_from_chain.topLeftCorner(n, n) = scale.partialPivLu().inverse();
+  table->plain_joints =
+      scale == Square::Identity(n, n) && table->arm.joint_offset.head(n).isZero(0);
+}
+
 }  // namespace
 
 Table MakeTable(const TableHeader& header, const Arm& arm,
                 const std::array<TableAxis, kMaxJoints>& axis,
                 std::span<const float> nodes) noexcept {
-  Table table{header, arm, axis, nodes, {}};
+  Table table;
+  table.header = header;
+  table.arm = arm;
+  table.axis = axis;
+  table.nodes = nodes;
   for (int i = 0; i < header.joints; ++i) {
     for (int j = 0; j < header.joints; ++j) table.grid.weight[j][i] = axis[i].weight[j];
     SetRange(axis[i], i, &table.grid);
@@ -51,6 +67,7 @@ Table MakeTable(const TableHeader& header, const Arm& arm,
   }
   SetStrides(axis, &table.grid);
   ListCorners(&table.grid);
+  InvertJointMap(&table);
   return table;
 }
 

@@ -10,27 +10,27 @@ const char* Name(TableFault fault) noexcept {
     case TableFault::kNone:
       return "ok";
     case TableFault::kNotOpened:
-      return "not opened";
+      return "not_opened";
     case TableFault::kNoMemory:
-      return "no memory";
+      return "no_memory";
     case TableFault::kNotATable:
-      return "not a table";
+      return "not_a_table";
     case TableFault::kNewerSchema:
-      return "newer schema";
+      return "newer_schema";
     case TableFault::kTruncated:
       return "truncated";
     case TableFault::kTrailingBytes:
-      return "trailing bytes";
+      return "trailing_bytes";
     case TableFault::kDamaged:
       return "damaged";
     case TableFault::kInvalidField:
-      return "invalid field";
+      return "invalid_field";
     case TableFault::kOtherRobot:
-      return "other robot";
+      return "other_robot";
     case TableFault::kOtherNominal:
-      return "other nominal robot";
+      return "other_nominal_robot";
     case TableFault::kOtherCalibration:
-      return "other calibration";
+      return "other_calibration";
   }
   return "unknown";
 }

@@ -27,7 +27,7 @@ struct TableReport {
   bool ok() const noexcept { return fault == TableFault::kNone; }
 };
 
-// "damaged" and so on: one word or two for a log.
+// "ok", "damaged", "newer_schema" and so on.
 const char* Name(TableFault fault) noexcept;
 
 // A report with a message in the manner of printf, cut at its end where it is too long.

@@ -42,8 +42,8 @@ double StepsAlong(const TableAxis& axis, double u) {
 }
 
 // The definition: a sum over all nodes of products of hats, in double.
-Twist InterpolatedByHats(const TableContent& content, const std::vector<double>& u) {
-  Twist sum = Twist::Zero();
+Delta InterpolatedByHats(const TableContent& content, const std::vector<double>& u) {
+  Delta sum = Delta::Zero();
   for (size_t node = 0; node * kNodeFloats < content.nodes.size(); ++node) {
     double weight = 1;
     size_t rest = node;
@@ -89,7 +89,7 @@ TEST(LookUp, DoesNotAskFoldedAxes) {
   const Table table = MakeTable(content);
   for (int trial = 0; trial < 20; ++trial) {
     std::vector<double> u = RandomCoordinates(content, &random);
-    const Twist first = LookUp(table, testing::JointsAt(content, u).data(), Reach::kDomain).delta;
+    const Delta first = LookUp(table, testing::JointsAt(content, u).data(), Reach::kDomain).delta;
     u[0] = random.Uniform(-3, 3);
     u[5] = random.Uniform(-3, 3);
     const Lookup second = LookUp(table, testing::JointsAt(content, u).data(), Reach::kDomain);
@@ -114,7 +114,7 @@ TEST(LookUp, RefusesOutsideOfTheDomain) {
       const Lookup refused = LookUp(table, testing::JointsAt(content, u).data(), Reach::kDomain);
       EXPECT_EQ(refused.fault, LookupFault::kOutside);
       EXPECT_EQ(refused.axis, axis);
-      EXPECT_EQ(refused.delta, Twist::Zero());
+      EXPECT_EQ(refused.delta, Delta::Zero());
     }
   }
 }
@@ -148,7 +148,7 @@ TEST(LookUp, RefusesWhatIsNoNumber) {
       q[joint] = bad;
       const Lookup refused = LookUp(table, q.data(), Reach::kGrid);
       EXPECT_EQ(refused.fault, LookupFault::kNotFinite);
-      EXPECT_EQ(refused.delta, Twist::Zero());
+      EXPECT_EQ(refused.delta, Delta::Zero());
     }
   }
 }
@@ -162,8 +162,8 @@ TEST(LookUp, GivesTheNodesThemselves) {
     low[i] = content.axis[i].lower - content.axis[i].margin + 1e-12;
     high[i] = content.axis[i].upper + content.axis[i].margin - 1e-12;
   }
-  const Twist first = LookUp(table, testing::JointsAt(content, low).data(), Reach::kGrid).delta;
-  const Twist last = LookUp(table, testing::JointsAt(content, high).data(), Reach::kGrid).delta;
+  const Delta first = LookUp(table, testing::JointsAt(content, low).data(), Reach::kGrid).delta;
+  const Delta last = LookUp(table, testing::JointsAt(content, high).data(), Reach::kGrid).delta;
   for (int k = 0; k < kNodeFloats; ++k) {
     EXPECT_NEAR(first(k), content.nodes[k], 1e-9);
     EXPECT_NEAR(last(k), content.nodes[content.nodes.size() - kNodeFloats + k], 1e-9);

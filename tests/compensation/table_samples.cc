@@ -119,6 +119,45 @@ TableContent Ur10Content(const Arm& arm, const std::array<int, 4>& nodes) {
   return content;
 }
 
+Arm RandomArm(const std::vector<bool>& prismatic, double error, std::uint64_t seed) {
+  Random random(seed);
+  Arm arm;
+  arm.nominal.joints = static_cast<int>(prismatic.size());
+  for (int i = 0; i <= arm.nominal.joints; ++i) {
+    arm.nominal.constant[i] = NearIdentity(0.4, &random);
+    arm.nominal.constant[i].R =
+        ExpRotation<double>(Eigen::Vector3d(random.Normal(), random.Normal(), random.Normal()));
+  }
+  std::copy(prismatic.begin(), prismatic.end(), arm.nominal.prismatic.begin());
+  arm.identified = arm.nominal;
+  for (int i = 1; i < arm.nominal.joints; ++i)
+    arm.identified.constant[i] = arm.nominal.constant[i] * NearIdentity(error, &random);
+  return arm;
+}
+
+TableContent PlainContent(const Arm& arm, double range) {
+  TableContent content;
+  content.arm = arm;
+  content.header.joints = arm.nominal.joints;
+  content.header.characteristic_length_m = 0.5;
+  content.header.smallest_singular_value = 0.05;
+  for (int i = 0; i < arm.nominal.joints; ++i) {
+    content.axis[i].weight[i] = 1;
+    SetRange(-range, range, range / 2, 3, &content.axis[i]);
+  }
+  FillNodes(&content);
+  return content;
+}
+
+Pose FlangeByTable(const Table& table, const double* q_chain) {
+  const JointChain& chain = table.arm.nominal;
+  const Pose X_BL = BeforeLast(chain, q_chain);
+  const auto delta = LookUp(table, q_chain, Reach::kGrid).delta;
+  const Eigen::Vector3d r = delta.tail<3>();
+  const Pose E{ExpRotation<double>(r), delta.head<3>()};
+  return X_BL * E * Inverse(X_BL) * FlangeAt(chain, q_chain);
+}
+
 std::array<double, kMaxJoints> JointsAt(const TableContent& content, const std::vector<double>& u) {
   const int n = content.header.joints;
   Eigen::MatrixXd weight(n, n);

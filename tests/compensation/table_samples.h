@@ -25,6 +25,18 @@ void FillNodes(TableContent* content);
 // 2 x 3 x 2 x 3 nodes: whole, but too coarse to be of use.
 TableContent SmallTable();
 
+// An arm of random links of about 0.4 m, joints of which are prismatic where `prismatic` says so,
+// with errors as those of Ur10Arm.
+Arm RandomArm(const std::vector<bool>& prismatic, double error, std::uint64_t seed);
+
+// Each joint an axis of its own from -range to range (rad, or m) with 3 nodes and a margin of half
+// the range.
+TableContent PlainContent(const Arm& arm, double range);
+
+// Where the table's nodes, interpolated, say that the flange stands: by definition, also in the
+// margin.
+Pose FlangeByTable(const Table& table, const double* q_chain);
+
 // Chain joints at coordinates u of all axes.
 std::array<double, kMaxJoints> JointsAt(const TableContent& content, const std::vector<double>& u);
 
