@@ -167,20 +167,33 @@ void Agent::OnSnapshot(const std::string& robot, bool has_open_request) {
   {
     std::lock_guard lock(mutex_);
     robots_[robot].problem.clear();
+    robots_[robot].answered = true;
   }
   Wake();
 }
 
+// Readings with another number of joints would be refused by the server for ever.
 void Agent::OnRobot(const v1::Robot& robot) {
+  const int joints = robot.nominal_revision().nominal().joints_size();
   std::lock_guard lock(mutex_);
   const auto found = robots_.find(robot.name());
-  if (found != robots_.end()) found->second.active_calibration = robot.active_calibration();
+  if (found == robots_.end()) return;
+  RobotStatus& status = found->second;
+  status.active_calibration = robot.active_calibration();
+  status.fault =
+      joints == status.joints
+          ? ""
+          : absl::StrCat(robot.name(), " has ", joints,
+                         " joints on the server; the configuration says ", status.joints);
+  if (!status.fault.empty()) LogError(status.fault);
 }
 
 void Agent::OnLost(const std::string& robot, const absl::Status& why) {
   {
     std::lock_guard lock(mutex_);
     robots_[robot].problem = std::string(why.message());
+    // What it refuses it has heard.
+    robots_[robot].answered = !absl::IsUnavailable(why) && !absl::IsCancelled(why);
   }
   delivery_->DistrustServer();
 }
@@ -191,7 +204,6 @@ AgentStatus Agent::Status() const {
   status.agent = config_.agent;
   status.version = TRUEPOSE_VERSION;
   status.server = config_.server;
-  status.connected = delivery.connected;
   status.problem = delivery.problem;
   status.delivered_readings = delivery.delivered;
   status.reopened_sessions = delivery.reopened_sessions;
@@ -210,8 +222,7 @@ AgentStatus Agent::Status() const {
   for (const auto& [name, robot] : robots_) {
     RobotStatus& added = status.robots.emplace_back(robot);
     if (const auto open = book_->Find(name)) added.request = open->request.name();
-    // Who hears of the robot hears of the server.
-    if (robot.problem.empty() && !robot.active_calibration.empty()) status.connected = true;
+    if (robot.answered) status.connected = true;
   }
   return status;
 }
@@ -224,8 +235,9 @@ v1::AgentReport Agent::ReportOf(const RobotStatus& robot, const AgentStatus& sta
   report.set_robot(robot.robot);
   report.set_version(status.version);
   report.set_spooled_readings(status.waiting_readings);
+  report.set_message(robot.fault);
   for (const SessionProgress& session : status.sessions)
-    if (!session.refusal.empty())
+    if (!session.refusal.empty() && session.robot == robot.robot)
       report.set_message(absl::StrCat(session.session, ": ", session.refusal));
   return report;
 }

@@ -89,9 +89,10 @@ absl::StatusOr<SessionProgress> Intake::Begin(const SessionStart& start) {
   v1::Session content = ContentOf(start.content);
   if (start.for_request) return BeginForRequest(std::move(content));
   TRUEPOSE_ASSIGN_OR_RETURN(*content.mutable_name(), NameFor(start));
-  // A key finds what is done already, too: the file that it names may be read again.
-  if (!start.key.empty() && (spool_.IsDone(content.name()) || spool_.Find(content.name())))
-    return Progress(content.name());
+  // What is done already is found, too: a source that broke off may begin again with it.
+  if (spool_.IsDone(content.name())) return Progress(content.name());
+  // A key stands for all that its file says.
+  if (!start.key.empty() && spool_.Find(content.name()) != nullptr) return Progress(content.name());
   return BeginNamed(std::move(content), "");
 }
 

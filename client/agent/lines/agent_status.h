@@ -12,7 +12,9 @@ namespace truepose::agent {
 struct RobotStatus {
   std::string robot = {};  // robots/{robot}
   int joints = 0;
-  std::string problem = {};             // why the server doesn't tell of it, "" = it does
+  std::string problem = {};  // why the server doesn't tell of it, "" = it does
+  bool answered = false;     // the server, the last time that it was asked of it
+  std::string fault = {};    // of the configuration against the server's robot, "" = none
   std::string active_calibration = {};  // as the server said last, "" = none
   std::string request = {};             // the open one, "" = none
 };

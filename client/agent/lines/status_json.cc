@@ -14,6 +14,7 @@ Json RobotJson(const RobotStatus& robot) {
   return {{"robot", robot.robot},
           {"joints", robot.joints},
           {"problem", robot.problem},
+          {"fault", robot.fault},
           {"active_calibration", robot.active_calibration},
           {"request", robot.request}};
 }

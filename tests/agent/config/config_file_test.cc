@@ -88,6 +88,13 @@ TEST(ConfigFileTest, AllFaultsAtOnceWithTheirLines) {
           ::testing::StartsWith("agent.toml:15: source[0].paths: found a list")));
 }
 
+// Would catch an example that nobody can start from.
+TEST(ConfigFileTest, TheExampleHasNoFaults) {
+  const auto config = ReadConfigFile(TRUEPOSE_SOURCE_DIR "/deploy/examples/agent.toml");
+  ASSERT_THAT(config, IsOk());
+  EXPECT_EQ(config->robots.size(), 1u);
+}
+
 TEST(ConfigFileTest, WhatIsNoToml) {
   EXPECT_THAT(Faults("agent = \n"), ::testing::ElementsAre(::testing::StartsWith("agent.toml:1")));
   EXPECT_THAT(ReadConfigFile("/nowhere/agent.toml"), HasCode(absl::StatusCode::kInvalidArgument));

@@ -101,12 +101,13 @@ void Plant::Restore() {
   }
 }
 
-void Plant::StartAgent() {
+void Plant::StartAgent(const std::string& listen, int joints) {
   agent_.reset();
+  listen_ = listen;
   agent_ = std::make_unique<AgentProcess>(
       folder_, absl::StrCat("agent = \"cell\"\nserver = \"", network_->address(), "\"\nspool = \"",
-                            folder_.File("spool"), "\"\nlisten = \"127.0.0.1:0\"\n",
-                            "[[robot]]\nname = \"arm\"\njoints = 6\n"));
+                            folder_.File("spool"), "\"\nlisten = \"", listen, "\"\n",
+                            "[[robot]]\nname = \"arm\"\njoints = ", joints, "\n"));
   EXPECT_TRUE(agent_->WaitUntilReady()) << agent_->Output();
 }
 
@@ -119,6 +120,18 @@ std::string Plant::agent_address() const {
   std::string address;
   std::getline(file, address);
   return address;
+}
+
+bool Plant::WaitForStatus(const std::function<bool(const json&)>& found) const {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  LineClient client(agent_address());
+  while (std::chrono::steady_clock::now() < end) {
+    const auto status = client.Ask({{"op", "status"}});
+    if (!status.has_value()) return false;
+    if (found(*status)) return true;
+    Nap();
+  }
+  return false;
 }
 
 bool Plant::WaitUntilSealed(const std::vector<std::string>& ids) const {
@@ -151,6 +164,11 @@ std::vector<int64_t> Plant::Stored(const std::string& id) const {
       });
   EXPECT_TRUE(status.ok()) << status;
   return numbers;
+}
+
+int FreePort() {
+  const Proxy taken("", 0);
+  return std::stoi(taken.address().substr(taken.address().rfind(':') + 1));
 }
 
 int64_t MeasureThrough(const Plant& plant, const std::string& id, int64_t readings,

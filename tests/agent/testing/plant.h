@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "client/client.h"
+#include "nlohmann/json.hpp"
 #include "tests/agent/testing/agent_process.h"
 #include "tests/agent/testing/proxy.h"
 #include "tests/integration/server_process.h"
@@ -27,7 +28,9 @@ class Plant {
   // The killed server's disk gets the copy back.
   void Restore();
 
-  void StartAgent();
+  // On any free port, or at `listen`.
+  void StartAgent(const std::string& listen = "127.0.0.1:0", int joints = 6);
+  const std::string& listen() const { return listen_; }
   AgentProcess& agent() { return *agent_; }
   Proxy& network() { return *network_; }
   // Beside the network.
@@ -35,6 +38,8 @@ class Plant {
   // "" while no agent is ready.
   std::string agent_address() const;
 
+  // Asks the agent for its status until `found` says yes; false after half a minute.
+  bool WaitForStatus(const std::function<bool(const nlohmann::json&)>& found) const;
   // Waits until the server has sealed each of the sessions.
   bool WaitUntilSealed(const std::vector<std::string>& ids) const;
   // By row, x of the position in um.
@@ -42,10 +47,14 @@ class Plant {
 
  private:
   TempDir folder_, copy_;
+  std::string listen_;
   std::unique_ptr<ServerProcess> server_;
   std::unique_ptr<Proxy> network_;
   std::unique_ptr<AgentProcess> agent_;
 };
+
+// A port of loopback that nobody listens at.
+int FreePort();
 
 // Measures `readings` readings into session `id`, numbered, whatever breaks meanwhile, and seals.
 // A reading counts when it was answered for. `on_taken` is told after each.
