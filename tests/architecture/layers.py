@@ -53,7 +53,7 @@ ALLOWED = {
     # core/geometry: the header-only part alone.
     "client/agent/released": ("core/base", "core/geometry", "compensation", "client", "client/agent", "proto", "io", "json"),
     "client/agent/sources": ("core/base", "formats", "client/agent", "proto", "io"),
-    "client": ("core/base", "proto", "grpc", "io", "openssl"),
+    "client": ("core/base", "compensation", "proto", "grpc", "io", "openssl"),
     "tests": (
         "core", "compensation", "formats", "programs", "convert", "server", "client", "bench", "proto", "grpc", "sqlite",
         "yaml", "json", "urdf", "openssl", "spdlog", "cli11", "io"),

@@ -1,6 +1,7 @@
 #include "client/agent/lines/conversation.h"
 
 #include "absl/strings/match.h"
+#include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "client/agent/lines/status_json.h"
 #include "core/base/error_metadata.h"
@@ -9,6 +10,7 @@
 namespace truepose::agent {
 namespace {
 
+constexpr int kDeepest = 8;
 constexpr char kOps[] = "begin, reading, seal, status, request, decline";
 
 std::string CodeText(const absl::Status& status) { return absl::StatusCodeToString(status.code()); }
@@ -22,7 +24,10 @@ Json ErrorJson(const absl::Status& status) {
                 {"code", CodeText(status)},
                 {"message", std::string(status.message())},
                 {"faults", faults}};
-  for (const auto& [name, value] : ErrorMetadataOf(status)) error[name] = std::stoll(value);
+  for (const auto& [name, value] : ErrorMetadataOf(status)) {
+    int64_t number = 0;
+    error[name] = absl::SimpleAtoi(value, &number) ? Json(number) : Json(value);
+  }
   return error;
 }
 
@@ -92,7 +97,7 @@ void Conversation::Reply(absl::StatusOr<Json> answer, const Json& tag) {
 }
 
 void Conversation::Take(const std::string& line) {
-  Json message = Json::parse(line, nullptr, false);
+  Json message = IsDeeperThan(line, kDeepest) ? Json() : Json::parse(line, nullptr, false);
   if (!message.is_object()) {
     Flush();
     return Reply(FaultStatus("line", FoundText(Json(line)), "a JSON object"), Json());

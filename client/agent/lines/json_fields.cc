@@ -5,6 +5,21 @@
 
 namespace truepose::agent {
 
+bool IsDeeperThan(const std::string& line, int most) {
+  int depth = 0;
+  bool in_text = false;
+  for (size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (in_text && c == '\\') ++i;
+    if (c == '"') in_text = !in_text;
+    if (in_text) continue;
+    if (c == '[' || c == '{') ++depth;
+    if (c == ']' || c == '}') --depth;
+    if (depth > most) return true;
+  }
+  return false;
+}
+
 std::string FoundText(const Json& value) {
   constexpr size_t kMost = 60;
   std::string text = value.dump(-1, ' ', true, Json::error_handler_t::replace);

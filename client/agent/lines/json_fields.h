@@ -42,6 +42,10 @@ class JsonFields {
   std::set<std::string> asked_;
 };
 
+// Whether lists and objects stand in one another more than `most` deep. Such a line is not parsed:
+// what handles values calls itself for each level.
+bool IsDeeperThan(const std::string& line, int most);
+
 // For a fault: the value as JSON, cut.
 std::string FoundText(const Json& value);
 

@@ -106,6 +106,16 @@ TEST_F(ConversationTest, ABadMessageIsAnsweredAndTheRestGoesOn) {
   EXPECT_EQ(refused_, 6);
 }
 
+// Would catch a line that ends the agent by the depth of its brackets.
+TEST_F(ConversationTest, ALineOfBracketsIsRefused) {
+  const std::string deep(60'000, '[');
+  EXPECT_EQ(FieldsOf(SayOne(deep)), std::vector<std::string>{"line"});
+  const std::string closed = deep + std::string(60'000, ']');
+  EXPECT_EQ(FieldsOf(SayOne(absl::StrCat(R"({"op":"status","tag":)", closed, "}"))),
+            std::vector<std::string>{"line"});
+  EXPECT_TRUE(SayOne(R"({"op":"status","tag":"[[[[[[[[[[ \" [[[["})").at("ok"));
+}
+
 // Would catch one reading of a burst that spoils the others, or that another is stored for.
 TEST_F(ConversationTest, OneOfABurstIsRefusedAlone) {
   Begin();
