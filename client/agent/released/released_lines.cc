@@ -233,4 +233,11 @@ absl::StatusOr<Json> ReadBackLine(const ReleasedDesk& desk, const Json& message)
   return ReadBackJson(result);
 }
 
+std::map<std::string, std::function<absl::StatusOr<Json>(const Json& message)>> ReleasedOperations(
+    const ReleasedDesk& desk) {
+  return {{"correct", [desk](const Json& message) { return CorrectLine(desk, message); }},
+          {"released", [desk](const Json& message) { return ReleasedLine(desk, message); }},
+          {"read_back", [desk](const Json& message) { return ReadBackLine(desk, message); }}};
+}
+
 }  // namespace truepose::agent

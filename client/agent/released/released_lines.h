@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -31,5 +32,9 @@ absl::StatusOr<Json> CorrectLine(const ReleasedDesk& desk, const Json& message);
 absl::StatusOr<Json> ReleasedLine(const ReleasedDesk& desk, const Json& message);
 // Which parameters the controller runs (read_back.h).
 absl::StatusOr<Json> ReadBackLine(const ReleasedDesk& desk, const Json& message);
+
+// All of them by their `op`, as a Desk wants them.
+std::map<std::string, std::function<absl::StatusOr<Json>(const Json& message)>> ReleasedOperations(
+    const ReleasedDesk& desk);
 
 }  // namespace truepose::agent
