@@ -44,6 +44,14 @@ std::vector<std::string> RobotNames(const AgentConfig& config) {
 
 void LogLine(const std::string& line) { LogInfo(line); }
 
+void AddReleased(const ReleasedState& state, RobotStatus* status) {
+  status->released_problem = state.problem;
+  status->controller_state = state.controller_state;
+  if (state.current == nullptr) return;
+  status->released = state.current->entry().calibration;
+  status->released_digest = state.current->entry().calibration_digest;
+}
+
 }  // namespace
 
 Agent::Agent(const AgentConfig& config, client::Client client)
@@ -88,13 +96,15 @@ absl::Status Agent::Open() {
            .now = UnixTime,
            .largest_clock_difference_s = static_cast<double>(config_.largest_clock_difference_s),
            .on_refused = [this] { ++refused_; },
-           .on_taken = [this](int64_t readings) { taken_ += readings; }});
+           .on_taken = [this](int64_t readings) { taken_ += readings; },
+           .operations = ReleasedOperations(DeskOfReleasedSets())});
   return absl::OkStatus();
 }
 
 // Before anything is started that Wake and Status use: a connection is answered from here on, but
 // what it brings is on the disk, and found there.
 absl::Status Agent::Listen() {
+  KeepReleasedSets();
   delivery_ = std::make_unique<Delivery>(
       *spool_, client_, DeliveryOptions{.keep = std::chrono::hours(24 * config_.keep_days)},
       LogLine);
@@ -127,6 +137,7 @@ void Agent::StartThreads(std::vector<std::unique_ptr<Source>> sources) {
 Agent::~Agent() {
   StopTaking();
   for (const auto& watch : watches_) watch->RequestStop();
+  for (const auto& keeper : released_) keeper->RequestStop();
   keeper_.reset();
   watches_.clear();
   delivery_.reset();
@@ -154,6 +165,33 @@ std::unique_ptr<RobotWatch> Agent::Watch(const std::string& robot) {
           .on_snapshot = [this, robot](bool has_open) { OnSnapshot(robot, has_open); },
           .on_robot = [this](const v1::Robot& changed) { OnRobot(changed); },
           .on_lost = [this, robot](const absl::Status& why) { OnLost(robot, why); }});
+}
+
+void Agent::KeepReleasedSets() {
+  for (const std::string& robot : RobotNames(config_))
+    released_.push_back(std::make_unique<ReleasedKeeper>(
+        client_, disk_,
+        ReleasedKeeperOptions{
+            .robot = robot,
+            .folder = absl::StrCat(config_.spool, "/released/", robot.substr(robot.find('/') + 1))},
+        LogLine));
+}
+
+ReleasedKeeper* Agent::KeeperOf(const std::string& robot) const {
+  for (const auto& keeper : released_)
+    if (keeper->robot() == robot) return keeper.get();
+  return nullptr;
+}
+
+ReleasedDesk Agent::DeskOfReleasedSets() const {
+  return {.state = [this](const std::string& robot) -> std::shared_ptr<const ReleasedState> {
+            const ReleasedKeeper* const keeper = KeeperOf(robot);
+            return keeper == nullptr ? nullptr : keeper->state();
+          },
+          .on_read_back =
+              [this](const std::string& robot, const std::string& controller_state) {
+                KeeperOf(robot)->SetControllerState(controller_state);
+              }};
 }
 
 void Agent::OnRequest(const std::string& robot, const v1::RecalibrationRequest& request) {
@@ -222,6 +260,7 @@ AgentStatus Agent::Status() const {
   for (const auto& [name, robot] : robots_) {
     RobotStatus& added = status.robots.emplace_back(robot);
     if (const auto open = book_->Find(name)) added.request = open->request.name();
+    AddReleased(*KeeperOf(name)->state(), &added);
     if (robot.answered) status.connected = true;
   }
   return status;
@@ -235,6 +274,11 @@ v1::AgentReport Agent::ReportOf(const RobotStatus& robot, const AgentStatus& sta
   report.set_robot(robot.robot);
   report.set_version(status.version);
   report.set_spooled_readings(status.waiting_readings);
+  report.set_calibration(robot.released);
+  report.set_digest(robot.released_digest);
+  report.set_controller_state(robot.controller_state);
+  if (!robot.released_problem.empty())
+    report.set_message(absl::StrCat("released set: ", robot.released_problem));
   report.set_message(robot.fault);
   for (const SessionProgress& session : status.sessions)
     if (!session.refusal.empty() && session.robot == robot.robot)

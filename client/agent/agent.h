@@ -16,6 +16,8 @@
 #include "client/agent/lines/agent_status.h"
 #include "client/agent/lines/conversation.h"
 #include "client/agent/lines/line_server.h"
+#include "client/agent/released/released_keeper.h"
+#include "client/agent/released/released_lines.h"
 #include "client/agent/requests/request_keeper.h"
 #include "client/agent/requests/robot_watch.h"
 #include "client/agent/source.h"
@@ -47,6 +49,9 @@ class Agent {
   absl::Status Listen();
   void StartThreads(std::vector<std::unique_ptr<Source>> sources);
   std::unique_ptr<RobotWatch> Watch(const std::string& robot);
+  void KeepReleasedSets();
+  ReleasedDesk DeskOfReleasedSets() const;
+  ReleasedKeeper* KeeperOf(const std::string& robot) const;  // null for another's
   void OnRequest(const std::string& robot, const v1::RecalibrationRequest& request);
   void OnSnapshot(const std::string& robot, bool has_open_request);
   void OnRobot(const v1::Robot& robot);
@@ -71,6 +76,7 @@ class Agent {
   std::chrono::steady_clock::time_point next_report_{};
 
   // In the order in which they are started; ended in the reverse one.
+  std::vector<std::unique_ptr<ReleasedKeeper>> released_;
   std::unique_ptr<Delivery> delivery_;
   std::unique_ptr<RequestKeeper> keeper_;
   std::vector<std::unique_ptr<RobotWatch>> watches_;

@@ -50,6 +50,8 @@ ALLOWED = {
         "core", "compensation", "formats", "programs", "convert", "client", "proto", "grpc", "io", "cli11", "json",
         "openssl"),
     "client/agent": ("core/base", "compensation", "client", "proto", "io", "cli11", "json", "spdlog", "toml"),
+    # core/geometry: the header-only part alone.
+    "client/agent/released": ("core/base", "core/geometry", "compensation", "client", "client/agent", "proto", "io", "json"),
     "client/agent/sources": ("core/base", "formats", "client/agent", "proto", "io", "json"),
     # No part of the agent itself: a robot that is made up.
     "client/agent/simulated": ("core", "convert", "formats", "client/agent", "proto", "io", "cli11"),

@@ -17,6 +17,10 @@ struct RobotStatus {
   std::string fault = {};    // of the configuration against the server's robot, "" = none
   std::string active_calibration = {};  // as the server said last, "" = none
   std::string request = {};             // the open one, "" = none
+  std::string released = {};            // calibration whose table runs, "" = none
+  std::string released_digest = {};     // of that calibration
+  std::string released_problem = {};    // what is wrong with what was released, "" = nothing
+  std::string controller_state = {};    // by the last read-back, "" = none was made
 };
 
 struct AgentStatus {

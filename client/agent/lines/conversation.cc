@@ -147,7 +147,11 @@ absl::StatusOr<Json> Conversation::Do(const std::string& op, const Json& message
   if (op == "request") return Request(message);
   if (op == "decline") return Decline(message);
   if (op == "status") return StatusJson(desk_.status());
-  return FaultStatus("op", op.empty() ? "nothing" : "'" + op + "'", std::string("one of ") + kOps);
+  const auto further = desk_.operations.find(op);
+  if (further != desk_.operations.end()) return further->second(message);
+  std::string known = absl::StrCat("one of ", kOps);
+  for (const auto& operation : desk_.operations) absl::StrAppend(&known, ", ", operation.first);
+  return FaultStatus("op", op.empty() ? "nothing" : "'" + op + "'", std::move(known));
 }
 
 absl::StatusOr<Json> Conversation::Begin(const Json& message) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct Desk {
   // Each answered error; each reading that is durable.
   std::function<void()> on_refused;
   std::function<void(int64_t)> on_taken;
+  // Further messages by their `op`; what they answer may say "ok" itself.
+  std::map<std::string, std::function<absl::StatusOr<Json>(const Json& message)>> operations = {};
 };
 
 class Conversation {

@@ -16,7 +16,10 @@ Json RobotJson(const RobotStatus& robot) {
           {"problem", robot.problem},
           {"fault", robot.fault},
           {"active_calibration", robot.active_calibration},
-          {"request", robot.request}};
+          {"request", robot.request},
+          {"released", robot.released},
+          {"released_problem", robot.released_problem},
+          {"controller_state", robot.controller_state}};
 }
 
 }  // namespace
@@ -69,6 +72,11 @@ std::string MetricsText(const AgentStatus& status) {
   };
   const auto refused = std::count_if(status.sessions.begin(), status.sessions.end(),
                                      [](const auto& session) { return !session.refusal.empty(); });
+  const auto released = std::count_if(status.robots.begin(), status.robots.end(),
+                                      [](const auto& robot) { return !robot.released.empty(); });
+  const auto problems =
+      std::count_if(status.robots.begin(), status.robots.end(),
+                    [](const auto& robot) { return !robot.released_problem.empty(); });
   add("connected", "gauge", "1 while the server answers.", status.connected ? 1 : 0);
   add("waiting_readings", "gauge", "Readings that the server does not have.",
       status.waiting_readings);
@@ -77,6 +85,9 @@ std::string MetricsText(const AgentStatus& status) {
   add("open_sessions", "gauge", "Sessions that are not sealed on the server.",
       static_cast<int64_t>(status.sessions.size()));
   add("refused_sessions", "gauge", "Sessions that the server refuses.", refused);
+  add("released_sets", "gauge", "Robots with a released set.", released);
+  add("released_problems", "gauge", "Robots whose released set was refused or is damaged.",
+      problems);
   add("readings_taken_total", "counter", "Readings taken since the start.", status.taken_readings);
   add("readings_delivered_total", "counter", "Readings acknowledged since the start.",
       status.delivered_readings);

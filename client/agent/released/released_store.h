@@ -1,0 +1,78 @@
+// What one robot runs: the released table in use, those before it, and why a newer one isn't.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "client/agent/released/released_cache.h"
+
+namespace truepose::agent {
+
+// Of one moment, as a whole. Immutable.
+struct ReleasedState {
+  std::shared_ptr<const ReleasedSet> current = nullptr;  // null: none yet
+  // What ran before it, newest first, at most kFormerSets; each calibration once.
+  std::vector<std::shared_ptr<const ReleasedSet>> former = {};
+  std::string path = {};  // of `current`, for programs that open it by themselves
+  std::string problem =
+      {};  // what is wrong with what was released, or with the cache; "" = nothing
+  std::string waiting = {};  // why the server has released nothing else, or nothing; "" = it has
+  std::string controller_state = {};  // AgentReport.controller_state, by the last read-back
+};
+
+inline constexpr size_t kFormerSets = 3;
+
+// Of an Offer: another try with the same would end alike.
+bool IsForGood(const absl::Status& status);
+
+// state() from any thread at any time, never waiting for the disk; the rest from one thread.
+class ReleasedStore {
+ public:
+  using Fetch = std::function<absl::StatusOr<std::string>()>;
+
+  ReleasedStore(ReleasedCache cache, std::function<void(const std::string&)> log)
+      : cache_(std::move(cache)), log_(std::move(log)) {}
+
+  // From the cache what ran last. A table there that can't be used is not, and `problem` says why:
+  // one that was replaced does not come back for it.
+  void Load();
+
+  // What the server has released now. Runs it, from the cache if it is there, else by `fetch`; all
+  // readers see it at once when this returns OK, and it outlasts a failure of power. Else
+  // everything stays as it was but for `problem`.
+  // What IsForGood() is refused without a look when it is offered again.
+  // @returns kOutOfRange when it was made active before what runs (IsOlder); kFailedPrecondition
+  // when
+  //   it is for something else than this robot; kDataLoss for bytes that are not what was released;
+  //   the disk's and `fetch`'s errors.
+  absl::Status Offer(const ReleasedEntry& offered, const Fetch& fetch);
+
+  // The server has nothing to offer, and why. What was wrong with an earlier offer is over.
+  void SetWaiting(const std::string& waiting);
+  // From any thread.
+  void SetControllerState(const std::string& controller_state);
+
+  // Never null.
+  std::shared_ptr<const ReleasedState> state() const;
+
+ private:
+  absl::StatusOr<std::shared_ptr<const ReleasedSet>> Obtain(const ReleasedEntry& offered,
+                                                            const Fetch& fetch);
+  absl::Status Take(const ReleasedEntry& offered, const Fetch& fetch);
+  void SetProblem(const std::string& problem);
+  void Change(const std::function<void(ReleasedState&)>& change);
+
+  ReleasedCache cache_;
+  const std::function<void(const std::string&)> log_;
+  ReleasedEntry refused_;
+  absl::Status refusal_;  // of refused_
+  mutable std::mutex mutex_;
+  std::shared_ptr<const ReleasedState> state_ = std::make_shared<ReleasedState>();
+};
+
+}  // namespace truepose::agent
