@@ -118,8 +118,13 @@ newest_sealed() { sealed_sessions "$1" "$2" | field 'd["sessions"][0]["name"].sp
 latest_calibration() { as anna calibration list --robot "$1" --json | field 'max((c["name"] for c in d["calibrations"]), key=lambda n: int(n.split("/")[-1])).replace("robots/", "").replace("/calibrations/", "#")'; }
 active_table_ready() { as anna table show "$1" --json >/dev/null 2>&1; }
 # The table is that of the robot's active calibration.
-table_is_of() { [ "$(as anna table show "$1" --json 2>/dev/null | field 'd["calibration"].replace("robots/", "").replace("/calibrations/", "#")')" = "$2" ]; }
-agent_runs() { [ "$(as anna table show "$1" --json | field 'd["sha256"]')" = "$(sha256sum "$directory/spool-$1/tables/$1/current.table" 2>/dev/null | cut -d' ' -f1)" ]; }
+table_is_of() { [ "$(as anna table show "$1" --json 2>/dev/null | field 'd["calibration"].replace("robots/", "").replace("/calibrations/", "#")' 2>/dev/null)" = "$2" ]; }
+# The agent has that table in use: what it names active is the file with the digest that the server tells.
+agent_runs() {
+  local told
+  told="$(as anna table show "$1" --json 2>/dev/null | field 'd["sha256"]' 2>/dev/null)" || return 1
+  [ "$told" = "$(sha256sum "$directory/spool-$1/released/$1/active.table" 2>/dev/null | cut -d' ' -f1)" ]
+}
 
 release() {
   as ben calibration approve "$1" --reason "control readings looked at" >/dev/null
@@ -149,8 +154,9 @@ release_all() {
   local name
   for name in $(names); do release "$name#1"; done
   for name in $(names); do wait_for "$name's table" active_table_ready "$name"; done
-  say "Ben has approved and activated them; the server has built and verified a compensation table for each:"
-  as anna table show cell-1 | head -n 12 | sed 's/^/          /'
+  for name in $(names); do wait_for "$name's agent" agent_runs "$name"; done
+  say "Ben has approved and activated them; the server has built and verified a table for each, and every agent runs its own:"
+  as anna table show cell-1 | sed '/^Next: /d; s/^/          /'
 }
 
 # check WHAT N: a check session of the bumped robot, its N-th, and its drift check.
@@ -178,7 +184,8 @@ for s in json.load(sys.stdin)["recalibration_requests"][-1]["steps"]:
   calibration="$(latest_calibration "$bumped")"
   release "$calibration"
   wait_for "the new table" table_is_of "$bumped" "$calibration"
-  say "Ben has released $calibration; its table is active."
+  wait_for "$bumped's agent" agent_runs "$bumped"
+  say "Ben has released $calibration; its table is built, and $bumped's agent runs it."
 }
 
 main() {
