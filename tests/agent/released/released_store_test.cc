@@ -9,7 +9,7 @@
 #include "absl/strings/str_cat.h"
 #include "compensation/correct_by_table.h"
 #include "gmock/gmock.h"
-#include "tests/agent/released/released_testing.h"
+#include "tests/agent/released/test_table.h"
 #include "tests/agent/spool/spool_testing.h"
 #include "tests/server/testing/expect_status.h"
 #include "tests/server/testing/temp_dir.h"
