@@ -99,8 +99,11 @@ absl::StatusOr<Set> ReleasedStore::Obtain(const ReleasedEntry& offered, const Fe
     log_(absl::StrCat("the cached table of ", ShortName(offered.calibration),
                       " is fetched again: ", std::string(cached.status().message())));
   }
-  TRUEPOSE_ASSIGN_OR_RETURN(const std::string bytes, fetch());
-  TRUEPOSE_RETURN_IF_ERROR(cache_.Put(offered.sha256, bytes));
+  const absl::StatusOr<std::string> bytes = fetch();
+  if (!bytes.ok())
+    return absl::UnavailableError(
+        absl::StrCat("it can't be fetched: ", std::string(bytes.status().message())));
+  TRUEPOSE_RETURN_IF_ERROR(cache_.Put(offered.sha256, *bytes));
   auto fetched = cache_.Read(offered);
   if (!fetched.ok()) cache_.Remove(offered.sha256);
   return fetched;

@@ -47,9 +47,8 @@ class ReleasedStore {
   // everything stays as it was but for `problem`.
   // What IsForGood() is refused without a look when it is offered again.
   // @returns kOutOfRange when it was made active before what runs (IsOlder); kFailedPrecondition
-  // when
-  //   it is for something else than this robot; kDataLoss for bytes that are not what was released;
-  //   the disk's and `fetch`'s errors.
+  //   when it is for something else than this robot; kDataLoss for bytes that are not what was
+  //   released; kUnavailable when `fetch` fails, with its words; the disk's errors.
   absl::Status Offer(const ReleasedEntry& offered, const Fetch& fetch);
 
   // The server has nothing to offer, and why. What was wrong with an earlier offer is over.

@@ -6,7 +6,7 @@
 #include "compensation/kinematics.h"
 #include "core/base/random.h"
 #include "gtest/gtest.h"
-#include "tests/agent/released/released_testing.h"
+#include "tests/agent/released/test_table.h"
 #include "tests/server/testing/expect_status.h"
 #include "tests/server/testing/temp_dir.h"
 

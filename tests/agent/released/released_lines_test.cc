@@ -5,7 +5,7 @@
 
 #include "compensation/correct_by_table.h"
 #include "gmock/gmock.h"
-#include "tests/agent/released/released_testing.h"
+#include "tests/agent/released/test_table.h"
 #include "tests/server/testing/expect_status.h"
 #include "tests/server/testing/temp_dir.h"
 

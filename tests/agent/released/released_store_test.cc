@@ -9,7 +9,7 @@
 #include "absl/strings/str_cat.h"
 #include "compensation/correct_by_table.h"
 #include "gmock/gmock.h"
-#include "tests/agent/released/released_testing.h"
+#include "tests/agent/released/test_table.h"
 #include "tests/agent/spool/spool_testing.h"
 #include "tests/server/testing/expect_status.h"
 #include "tests/server/testing/temp_dir.h"
@@ -162,6 +162,24 @@ TEST_F(ReleasedStoreTest, AnotherRobotsTableIsRefused) {
   EXPECT_THAT(Offer(other_arm), HasCode(absl::StatusCode::kFailedPrecondition));
   EXPECT_THAT(Problem(), HasSubstr("serial: found 'A-17', expected 'B-1'"));
   EXPECT_EQ(Running(), "robots/arm/calibrations/1");
+}
+
+// Would catch an agent that fetches for ever what it will never take, and one that gives up what
+// another try may bring.
+TEST_F(ReleasedStoreTest, FetchesAgainWhatMayChange) {
+  const TestTable other(1, "robots/other");
+  for (int attempt = 0; attempt < 3; ++attempt)
+    EXPECT_THAT(Offer(other), HasCode(absl::StatusCode::kFailedPrecondition));
+  EXPECT_EQ(fetched_, 1);
+  for (const auto code : {absl::StatusCode::kFailedPrecondition, absl::StatusCode::kAborted}) {
+    const auto failing = [&]() -> absl::StatusOr<std::string> {
+      return absl::Status(code, "not now");
+    };
+    EXPECT_THAT(store_->Offer(first_.entry, failing), HasCode(absl::StatusCode::kUnavailable));
+    EXPECT_THAT(Problem(), HasSubstr("not now"));
+  }
+  EXPECT_THAT(Offer(first_), IsOk());
+  EXPECT_EQ(Problem(), "");
 }
 
 // Would catch a file that somebody put into the cache and that is believed.
