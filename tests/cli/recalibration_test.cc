@@ -94,7 +94,7 @@ TEST_F(RecalibrationTest, RefusalsTellTheShellAndThePerson) {
   Good({"recalibration", "request", "ur10"});
   const Ran early = Remote({"recalibration", "calibrate", "ur10"});
   EXPECT_EQ(early.code, 1);
-  EXPECT_THAT(early.err, HasSubstr("REQUEST_ACKNOWLEDGED"));
+  EXPECT_THAT(early.err, HasSubstr("may follow pending: acknowledged"));
   EXPECT_EQ(Remote({"recalibration", "decline", "ur10"}).code, 2) << "a reason is needed";
   EXPECT_EQ(Json({"recalibration", "decline", "ur10", "--reason", "no time"}, "state"),
             "REQUEST_DECLINED");
