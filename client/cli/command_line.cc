@@ -10,6 +10,8 @@
 #include "absl/strings/string_view.h"
 #include "absl/strings/strip.h"
 #include "client/cli/outcome.h"
+#include "client/cli/same_file.h"
+#include "core/base/status_macros.h"
 
 namespace truepose::cli {
 
@@ -71,6 +73,35 @@ absl::Status ConversionFault(absl::string_view what) {
   absl::ConsumePrefix(&what, "Could not convert: ");
   const std::vector<std::string> parts = absl::StrSplit(what, absl::MaxSplits(" = ", 1));
   return OptionFault(parts.front(), parts.back(), "a number; --help shows which");
+}
+
+constexpr absl::string_view kOutputs[] = {"--output", "--csv", "--svg", "--truth"};
+
+bool IsOutput(const CLI::Option& option) {
+  return std::find(std::begin(kOutputs), std::end(kOutputs), option.get_name()) !=
+         std::end(kOutputs);
+}
+
+// Nothing that a command reads is what it writes over, and no two of its outputs are one file.
+absl::Status CheckOutput(const CLI::Option& output, const CLI::Option& other) {
+  for (const std::string& path : output.results()) {
+    for (const std::string& named : other.results()) {
+      TRUEPOSE_RETURN_IF_ERROR(CheckOtherFile(named, path, output.get_name()));
+      if (IsOutput(other) && named == path)
+        return OptionFault(output.get_name(), path,
+                           absl::StrCat("another file than ", other.get_name()));
+    }
+  }
+  return absl::OkStatus();
+}
+
+absl::Status CheckOutputs(const CLI::App& command) {
+  for (const CLI::Option* output : command.get_options()) {
+    if (!IsOutput(*output)) continue;
+    for (const CLI::Option* other : command.get_options())
+      if (other != output) TRUEPOSE_RETURN_IF_ERROR(CheckOutput(*output, *other));
+  }
+  return absl::OkStatus();
 }
 
 }  // namespace
@@ -157,6 +188,7 @@ absl::Status CommandLine::RunSelected(const Console& console) {
     return UsageError(absl::StrCat("a command is missing after `", FullName(selected), "`\nTry `",
                                    FullName(selected), " --help`."));
   }
+  TRUEPOSE_RETURN_IF_ERROR(CheckOutputs(*selected));
   return action->second(
       {console, impl_->json, impl_->server, selected->remaining(), impl_->token_file});
 }

@@ -48,6 +48,10 @@ absl::Status CheckPolicyWithin(Transaction& transaction, const ResourceKey& key,
                                const google::protobuf::Message& content, FaultList& faults) {
   const auto& policy = static_cast<const v1::RecalibrationPolicy&>(content);
   if (policy.pose_set().empty()) return absl::OkStatus();
+  v1::RecalibrationPolicy before;
+  TRUEPOSE_ASSIGN_OR_RETURN(const auto known, store::FindResource(transaction, key));
+  const bool is_update = known.has_value() && before.ParseFromString(*known);
+  if (is_update && before.pose_set() == policy.pose_set()) return absl::OkStatus();
   const std::string prefix = absl::StrCat(store::RobotName(key.robot_id), "/poseSets/");
   ResourceKey of_set{v1::KIND_POSE_SET, key.robot_id, ""};
   if (policy.pose_set().starts_with(prefix)) of_set.id = policy.pose_set().substr(prefix.size());

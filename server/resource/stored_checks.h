@@ -14,7 +14,8 @@ namespace truepose::resource {
 // differ.
 absl::Status CheckRobotEventWithin(store::Transaction& transaction, const store::ResourceKey& key,
                                    const google::protobuf::Message& content, FaultList& faults);
-// The pose set is there, and this robot's.
+// The pose set is there, and this robot's; one that was deleted since does not keep other fields
+// from being changed.
 absl::Status CheckPolicyWithin(store::Transaction& transaction, const store::ResourceKey& key,
                                const google::protobuf::Message& content, FaultList& faults);
 

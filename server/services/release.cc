@@ -60,7 +60,7 @@ absl::StatusOr<v1::Calibration> Approve(Transaction& transaction, const Caller& 
   TRUEPOSE_ASSIGN_OR_RETURN(const Origin origin, OriginOf(transaction, calibration));
   TRUEPOSE_RETURN_IF_ERROR(CheckReleaseStep(calibration, v1::APPROVED));
   TRUEPOSE_RETURN_IF_ERROR(CheckMayApprove(caller, robot, origin));
-  TRUEPOSE_RETURN_IF_ERROR(CheckVerdict(calibration, request.reason()));
+  TRUEPOSE_RETURN_IF_ERROR(CheckVerdict(calibration));
   return store::AppendReleaseStep(transaction, request.name(), v1::APPROVED, caller.principal,
                                   request.reason());
 }

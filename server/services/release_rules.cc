@@ -1,6 +1,7 @@
 #include "server/services/release_rules.h"
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 #include "server/store/message.h"
 
 namespace truepose::services {
@@ -68,11 +69,14 @@ absl::Status CheckReleaseStep(const v1::Calibration& calibration, v1::ReleaseSta
                    " (draft -> approved | rejected, approved -> active)"));
 }
 
-absl::Status CheckVerdict(const v1::Calibration& calibration, const std::string& reason) {
-  if (calibration.report().verdict() != "do_not_apply" || !reason.empty()) return absl::OkStatus();
-  return store::Refusal(absl::StatusCode::kFailedPrecondition, "reason", "nothing",
-                        absl::StrCat("why ", calibration.name(),
-                                     " is to be used although its verdict is do_not_apply"));
+absl::Status CheckVerdict(const v1::Calibration& calibration) {
+  const v1::CalibrationReport& report = calibration.report();
+  if (report.verdict() != "do_not_apply") return absl::OkStatus();
+  const std::string reasons = absl::StrJoin(report.verdict_reasons(), "; ");
+  return store::Refusal(absl::StatusCode::kFailedPrecondition, "name",
+                        absl::StrCat(calibration.name(), ", whose verdict is do_not_apply",
+                                     reasons.empty() ? "" : absl::StrCat(" (", reasons, ")")),
+                        "a calibration that may be applied: reject this one, and calibrate again");
 }
 
 std::string WhyNotAutomatic(const v1::Robot& robot, const v1::Calibration& calibration,

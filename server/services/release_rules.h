@@ -30,8 +30,8 @@ absl::Status CheckIsAdmin(const Caller& caller);
 // @returns kFailedPrecondition that names both states when `to` may not follow.
 absl::Status CheckReleaseStep(const v1::Calibration& calibration, v1::ReleaseState to);
 
-// @returns kFailedPrecondition for verdict do_not_apply without a reason.
-absl::Status CheckVerdict(const v1::Calibration& calibration, const std::string& reason);
+// @returns kFailedPrecondition for verdict do_not_apply: neither compensation nor a table takes it.
+absl::Status CheckVerdict(const v1::Calibration& calibration);
 
 // Why the server may not release it by itself, in words; "" = it may. `change_mm` is how far the
 // flange moves against the active calibration, negative when there is none.

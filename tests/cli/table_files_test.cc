@@ -162,5 +162,40 @@ TEST_F(TableFilesTest, MapsTheAccuracy) {
     EXPECT_THAT(svg, HasSubstr(part));
 }
 
+// Would catch a cell that is half as large as meant, since an edge that is missing counts as 0, and
+// ranges that are dropped without a word.
+TEST_F(TableFilesTest, ABoxHasSixEdgesAndIsTheOnlyDomain) {
+  std::string spec(kSpec);
+  spec.replace(spec.find("  min_y_mm: -200\n"), 17, "");
+  folder_.Write("cell.yaml", spec + "joint_ranges:\n  joints:\n    - {lower: -1, upper: 1}\n");
+  const Ran ran = RunCli(Joined({"table", "estimate"}, Sources()));
+  EXPECT_NE(ran.code, 0);
+  EXPECT_THAT(ran.err, HasSubstr("box.min_y_mm"));
+  EXPECT_THAT(ran.err, HasSubstr("joint_ranges"));
+}
+
+// Would catch what is read and written over: a measured session, a calibration, a spec.
+TEST_F(TableFilesTest, NothingIsWrittenOverWhatIsRead) {
+  const std::string cell = folder_.Path("cell.yaml");
+  const auto text = [](const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  const std::string before = text(calibration_);
+  for (const std::string& output : {calibration_, cell}) {
+    const Ran ran = RunCli(Joined({"table", "build", "--output", output}, Sources()));
+    EXPECT_NE(ran.code, 0);
+    EXPECT_THAT(ran.err, HasSubstr("--output"));
+  }
+  const std::string session = text(session_);
+  EXPECT_NE(RunCli({"calibrate", "--local", "--robot", robot_, "--session", session_, "--output",
+                    session_})
+                .code,
+            0);
+  EXPECT_EQ(text(session_), session);
+  EXPECT_EQ(text(calibration_), before);
+  EXPECT_EQ(text(cell), kSpec);
+}
+
 }  // namespace
 }  // namespace truepose::cli

@@ -6,6 +6,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "absl/strings/str_split.h"
+#include "client/cli/commands/table.h"
 #include "client/cli/inputs.h"
 #include "client/cli/names.h"
 #include "client/cli/outcome.h"
@@ -116,6 +117,7 @@ absl::Status ReadContent(const client::Client& client, const ResourceKind& kind,
     TRUEPOSE_RETURN_IF_ERROR(AsInputFault(formats::ReadMessageFile(
         options.table_spec, *static_cast<v1::Robot&>(content).mutable_table_spec(),
         fields_of_spec)));
+    TRUEPOSE_RETURN_IF_ERROR(CheckTableSpecFields(fields_of_spec, options.table_spec + ": "));
     given.push_back("table_spec");
   }
   if (given.empty() && needed) return UsageError("nothing to change: give --set or --file");

@@ -1,8 +1,10 @@
 // truepose table: compensation tables, the form of a calibration that a controller uses.
 #include "client/cli/commands/table.h"
 
+#include <algorithm>
 #include <utility>
 
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "client/cli/commands/commands.h"
@@ -48,6 +50,21 @@ void AddTableSpecOptions(const Command& command, TableOptions* options) {
       .Option("--set", "KEY=VALUE", &options->set, "Fields one by one, over those of the file");
 }
 
+absl::Status CheckTableSpecFields(const formats::GivenFields& given, const std::string& place) {
+  const auto begins = [&](absl::string_view with) {
+    return std::any_of(given.begin(), given.end(),
+                       [&](const std::string& field) { return absl::StartsWith(field, with); });
+  };
+  if (!begins("box.")) return absl::OkStatus();
+  FaultList faults;
+  if (begins("joint_ranges"))
+    faults.Add(place + "joint_ranges", "given beside box", "one domain: a box or joint ranges");
+  for (const char* edge : {"min_x_m", "max_x_m", "min_y_m", "max_y_m", "min_z_m", "max_z_m"})
+    if (!begins(absl::StrCat("box.", edge)))
+      faults.Add(absl::StrCat(place, "box.", edge, "m"), "nothing", "all six edges of the box");
+  return faults.ToStatus();
+}
+
 absl::StatusOr<v1::CompensationTableSpec> LoadTableSpec(const TableOptions& options) {
   v1::CompensationTableSpec spec;
   formats::GivenFields given;
@@ -57,6 +74,7 @@ absl::StatusOr<v1::CompensationTableSpec> LoadTableSpec(const TableOptions& opti
   }
   TRUEPOSE_ASSIGN_OR_RETURN(const auto fields, SplitSets(options.set));
   TRUEPOSE_RETURN_IF_ERROR(formats::SetMessageFields(fields, "--set", spec, given));
+  TRUEPOSE_RETURN_IF_ERROR(CheckTableSpecFields(given, "--spec: "));
   return spec;
 }
 

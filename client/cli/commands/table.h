@@ -9,6 +9,7 @@
 #include "client/cli/inputs.h"
 #include "client/cli/outcome.h"
 #include "compensation/table_file.h"
+#include "formats/message_file.h"
 #include "truepose/v1/compensation_table.pb.h"
 
 namespace truepose::cli {
@@ -23,6 +24,10 @@ struct TableOptions {
   std::string output;
   bool allow_draft = false, no_wait = false;  // only without --local
 };
+
+// What messages can't tell: an edge of the box that was not given counts as 0, and of two domains
+// the latter. @param given fields of the spec; @param place before the field in faults.
+absl::Status CheckTableSpecFields(const formats::GivenFields& given, const std::string& place);
 
 // --spec and --set.
 void AddTableSpecOptions(const Command& command, TableOptions* options);

@@ -205,12 +205,14 @@ TEST(ReleaseRules, TwoPersonsUnlessAMachineMadeTheJob) {
   EXPECT_TRUE(may("anna", MadeBy("anna", false, "anna")));
 }
 
-// Would catch a bad result that is approved by a click.
-TEST(ReleaseRules, DoNotApplyNeedsAReason) {
+// Would catch a result that is approved, whatever the reason, and that neither compensation nor a
+// table then takes: the robot would go on with another set than the server names.
+TEST(ReleaseRules, DoNotApplyIsNotApproved) {
   v1::Calibration calibration;
   calibration.mutable_report()->set_verdict("do_not_apply");
-  EXPECT_FALSE(CheckVerdict(calibration, "").ok());
-  EXPECT_TRUE(CheckVerdict(calibration, "test cell only").ok());
+  EXPECT_FALSE(CheckVerdict(calibration).ok());
+  calibration.mutable_report()->set_verdict("apply_within_volume");
+  EXPECT_TRUE(CheckVerdict(calibration).ok());
 }
 
 // Would catch a limit that doesn't hold, each alone.
