@@ -138,8 +138,9 @@ Agent::~Agent() {
   StopTaking();
   for (const auto& watch : watches_) watch->RequestStop();
   for (const auto& keeper : released_) keeper->RequestStop();
-  keeper_.reset();
+  // They notify the keeper.
   watches_.clear();
+  keeper_.reset();
   delivery_.reset();
 }
 
