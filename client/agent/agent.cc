@@ -138,8 +138,9 @@ Agent::~Agent() {
   StopTaking();
   for (const auto& watch : watches_) watch->RequestStop();
   for (const auto& keeper : released_) keeper->RequestStop();
-  keeper_.reset();
+  // They notify the keeper.
   watches_.clear();
+  keeper_.reset();
   delivery_.reset();
 }
 
@@ -161,7 +162,8 @@ std::unique_ptr<RobotWatch> Agent::Watch(const std::string& robot) {
   return std::make_unique<RobotWatch>(
       client_, robot,
       RobotWatchHandlers{
-          .on_request = [this, robot](const auto& request) { OnRequest(robot, request); },
+          .on_request = [this, robot](const auto& request,
+                                      bool is_snapshot) { OnRequest(robot, request, is_snapshot); },
           .on_snapshot = [this, robot](bool has_open) { OnSnapshot(robot, has_open); },
           .on_robot = [this](const v1::Robot& changed) { OnRobot(changed); },
           .on_lost = [this, robot](const absl::Status& why) { OnLost(robot, why); }});
@@ -194,8 +196,9 @@ ReleasedDesk Agent::DeskOfReleasedSets() const {
               }};
 }
 
-void Agent::OnRequest(const std::string& robot, const v1::RecalibrationRequest& request) {
-  const absl::Status status = book_->Take(robot, request);
+void Agent::OnRequest(const std::string& robot, const v1::RecalibrationRequest& request,
+                      bool is_snapshot) {
+  const absl::Status status = book_->Take(robot, request, is_snapshot);
   if (!status.ok()) LogError(std::string(status.message()));
   keeper_->Notify();
 }

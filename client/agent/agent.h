@@ -52,7 +52,8 @@ class Agent {
   void KeepReleasedSets();
   ReleasedDesk DeskOfReleasedSets() const;
   ReleasedKeeper* KeeperOf(const std::string& robot) const;  // null for another's
-  void OnRequest(const std::string& robot, const v1::RecalibrationRequest& request);
+  void OnRequest(const std::string& robot, const v1::RecalibrationRequest& request,
+                 bool is_snapshot);
   void OnSnapshot(const std::string& robot, bool has_open_request);
   void OnRobot(const v1::Robot& robot);
   void OnLost(const std::string& robot, const absl::Status& why);

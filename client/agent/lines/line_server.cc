@@ -18,6 +18,9 @@ namespace truepose::agent {
 namespace {
 
 constexpr size_t kReadAtOnce = 64 << 10;
+// Handed over together: about those of one read, when they are readings. What they are answered
+// goes beyond the backlog.
+constexpr size_t kLinesAtOnce = 256;
 
 bool LooksLikeHttp(const std::string& line) {
   return absl::StrContains(line, " HTTP/1.") && !line.empty() && line.front() != '{';
@@ -32,16 +35,22 @@ class LineServer::Connection {
   ~Connection() { close(descriptor_); }
 
   pollfd Waited() const {
-    const bool reads = !ending_ && out_.size() <= server_.options_.largest_backlog;
+    const bool reads = !ending_ && !no_more_ && !IsFull();
     return {descriptor_, static_cast<short>((reads ? POLLIN : 0) | (out_.empty() ? 0 : POLLOUT)),
             0};
   }
   void Read();
-  void Write();
+  // Sends answers, then answers lines that have come as long as there is place for the answers.
+  void Work();
   bool has_ended() const { return broken_ || (ending_ && out_.empty()); }
 
  private:
-  std::vector<std::string> TakeLines();
+  bool IsFull() const { return out_.size() > server_.options_.largest_backlog; }
+  bool HasLine() const { return in_.find('\n') != std::string::npos; }
+  void Write();
+  void AnswerSome();
+  // Of a line that is too long. One that is no message is taken for HTTP: its connection ends.
+  void TakeTooLong(const std::string& begin);
   // Whether the line was one of HTTP, and is dealt with.
   bool TakeHttp(const std::string& line);
 
@@ -50,6 +59,7 @@ class LineServer::Connection {
   const std::unique_ptr<LineHandler> handler_;
   std::string in_, out_;
   bool skipping_ = false;  // the rest of a line that is too long
+  bool no_more_ = false;   // comes from the other side
   bool ending_ = false;    // answers go out, then the connection ends
   bool broken_ = false;
 };
@@ -60,35 +70,52 @@ void LineServer::Connection::Read() {
   const ssize_t got = recv(descriptor_, in_.data() + before, kReadAtOnce, 0);
   in_.resize(before + static_cast<size_t>(std::max<ssize_t>(got, 0)));
   if (got < 0 && errno != EAGAIN && errno != EINTR) broken_ = true;
-  if (got == 0) ending_ = true;
-  const std::vector<std::string> lines = TakeLines();
-  if (!lines.empty()) out_ += handler_->Answer(lines);
-  const size_t most = server_.options_.largest_line;
-  if (in_.size() > most) {
-    in_.clear();
-    if (!std::exchange(skipping_, true)) out_ += handler_->AnswerTooLong(most);
+  if (got == 0) no_more_ = true;
+  Work();
+}
+
+void LineServer::Connection::Work() {
+  Write();
+  while (HasLine() && !IsFull() && !ending_ && !broken_) {
+    AnswerSome();
+    Write();
   }
+  if (HasLine()) return;
+  if (in_.size() > server_.options_.largest_line) {
+    if (!std::exchange(skipping_, true)) TakeTooLong(in_);
+    in_.clear();
+  }
+  if (no_more_) ending_ = true;
   Write();
 }
 
-std::vector<std::string> LineServer::Connection::TakeLines() {
+void LineServer::Connection::AnswerSome() {
   std::vector<std::string> lines;
   size_t begin = 0;
-  for (size_t end = in_.find('\n'); end != std::string::npos; end = in_.find('\n', begin)) {
+  for (size_t end = in_.find('\n'); end != std::string::npos && lines.size() < kLinesAtOnce;
+       end = in_.find('\n', begin)) {
     std::string line = in_.substr(begin, end - begin);
     begin = end + 1;
     if (std::exchange(skipping_, false)) continue;
-    if (TakeHttp(line)) return {};
+    if (TakeHttp(line)) return;
     if (line.size() > server_.options_.largest_line) {
       // Those before it are answered first.
       out_ += handler_->Answer(std::exchange(lines, {}));
-      out_ += handler_->AnswerTooLong(server_.options_.largest_line);
+      TakeTooLong(line);
+      if (ending_) return;
       continue;
     }
     lines.push_back(std::move(line));
   }
   in_.erase(0, begin);
-  return lines;
+  if (!lines.empty()) out_ += handler_->Answer(lines);
+}
+
+void LineServer::Connection::TakeTooLong(const std::string& begin) {
+  out_ += handler_->AnswerTooLong(server_.options_.largest_line);
+  if (begin.front() == '{') return;
+  in_.clear();
+  ending_ = true;
 }
 
 bool LineServer::Connection::TakeHttp(const std::string& line) {
@@ -162,7 +189,7 @@ void LineServer::RunThread() {
     if (poll(waited.data(), waited.size(), -1) < 0) continue;
     for (size_t i = 2; i < waited.size(); ++i) {
       Connection& connection = *connections_[i - 2];
-      if (waited[i].revents & POLLOUT) connection.Write();
+      if (waited[i].revents & POLLOUT) connection.Work();
       if (waited[i].revents & (POLLIN | POLLHUP | POLLERR)) connection.Read();
     }
     if (waited[1].revents & POLLIN) Accept();

@@ -24,9 +24,11 @@ class LineHandler {
 struct LineServerOptions {
   std::string listen = {};  // "127.0.0.1:7900", "[::1]:0"; port 0: any that is free
   std::vector<std::string> allowed_peers = {};  // numeric addresses, besides loopback
-  size_t largest_line = 64 << 10;               // bytes
+  // Bytes. A longer line that begins with { is answered and skipped; any other ends its connection,
+  // since it may be of HTTP.
+  size_t largest_line = 64 << 10;
   size_t most_connections = 200;
-  // Who doesn't read its answers is read from no more beyond this.
+  // Who doesn't read its answers is neither read from nor answered beyond this.
   size_t largest_backlog = 1 << 20;
 };
 

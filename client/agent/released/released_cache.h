@@ -34,12 +34,14 @@ class ReleasedCache {
   // sets[0] is what runs from now on; tables of others than `sets` are removed. After an error it
   // may be either; again is right.
   absl::Status Release(const std::vector<ReleasedEntry>& sets);
+  // Lets active_path() be that table; OK without a change when it is. For a process that ended
+  // within Release, before that. @returns kResourceExhausted or kUnavailable, for the disk.
+  absl::Status Link(const std::string& sha256);
   // Where the one that runs can be opened by others.
   std::string active_path() const { return folder_ + "/active.table"; }
 
  private:
   std::string PathOf(const std::string& sha256) const { return folder_ + "/" + sha256 + ".table"; }
-  absl::Status Link(const std::string& sha256);
   void RemoveOthers(const std::vector<ReleasedEntry>& sets);
 
   const std::string folder_, robot_;

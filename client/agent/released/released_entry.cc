@@ -35,11 +35,6 @@ ReleasedEntry EntryOf(const Json& json) {
   return entry;
 }
 
-// It becomes a file's name.
-bool IsDigest(const std::string& text) {
-  return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
-}
-
 absl::StatusOr<std::vector<ReleasedEntry>> SetsOf(const Json& json, const std::string& robot) {
   const std::string found = json.at("robot");
   if (found != robot)
@@ -55,6 +50,10 @@ absl::StatusOr<std::vector<ReleasedEntry>> SetsOf(const Json& json, const std::s
 }
 
 }  // namespace
+
+bool IsDigest(const std::string& text) {
+  return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
 
 bool IsOlder(const ReleasedEntry& offered, const ReleasedEntry& running) {
   return offered.calibration != running.calibration &&

@@ -22,6 +22,9 @@ struct ReleasedEntry {
   bool operator==(const ReleasedEntry&) const = default;
 };
 
+// 64 digits of lower-case hex: what may become a file's name.
+bool IsDigest(const std::string& text);
+
 // Whether `offered` was made active before `running` by time and by commit: what a server says that
 // was restored from an older copy. A calibration that is rolled back to is made active anew, so it
 // is not older. Of one calibration none is older.

@@ -54,7 +54,7 @@ void ReleasedStore::SetProblem(const std::string& problem) {
     state.problem = problem;
     state.waiting.clear();
   });
-  if (!problem.empty() && problem != now->problem) log_(problem);
+  if (!problem.empty() && problem != now->problem) warn_(problem);
 }
 
 void ReleasedStore::SetWaiting(const std::string& waiting) {
@@ -88,11 +88,16 @@ void ReleasedStore::Load() {
     state.former = loaded.former;
     if (state.current != nullptr) state.path = cache_.active_path();
   });
-  if (loaded.current != nullptr)
-    log_(absl::StrCat("runs ", NameOf(loaded.current->entry()), " from the cache"));
+  if (loaded.current == nullptr) return;
+  const absl::Status linked = cache_.Link(loaded.current->entry().sha256);
+  if (!linked.ok()) SetProblem(std::string(linked.message()));
+  log_(absl::StrCat("runs ", NameOf(loaded.current->entry()), " from the cache"));
 }
 
 absl::StatusOr<Set> ReleasedStore::Obtain(const ReleasedEntry& offered, const Fetch& fetch) {
+  if (!IsDigest(offered.sha256))
+    return absl::FailedPreconditionError(
+        absl::StrCat("sha256: found '", offered.sha256, "', expected 64 digits of lower-case hex"));
   if (cache_.Has(offered.sha256)) {
     auto cached = cache_.Read(offered);
     if (cached.ok()) return cached;

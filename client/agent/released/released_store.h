@@ -35,11 +35,14 @@ class ReleasedStore {
  public:
   using Fetch = std::function<absl::StatusOr<std::string>()>;
 
-  ReleasedStore(ReleasedCache cache, std::function<void(const std::string&)> log)
-      : cache_(std::move(cache)), log_(std::move(log)) {}
+  // @param warn gets what becomes `problem`; null: `log` gets that as well.
+  ReleasedStore(ReleasedCache cache, std::function<void(const std::string&)> log,
+                std::function<void(const std::string&)> warn = nullptr)
+      : cache_(std::move(cache)), log_(std::move(log)), warn_(warn ? std::move(warn) : log_) {}
 
   // From the cache what ran last. A table there that can't be used is not, and `problem` says why:
-  // one that was replaced does not come back for it.
+  // one that was replaced does not come back for it. `path` is the table that runs also when the
+  // process before ended in the middle of a swap.
   void Load();
 
   // What the server has released now. Runs it, from the cache if it is there, else by `fetch`; all
@@ -47,12 +50,15 @@ class ReleasedStore {
   // everything stays as it was but for `problem`.
   // What IsForGood() is refused without a look when it is offered again.
   // @returns kOutOfRange when it was made active before what runs (IsOlder); kFailedPrecondition
-  //   when it is for something else than this robot; kDataLoss for bytes that are not what was
-  //   released; kUnavailable when `fetch` fails, with its words; the disk's errors.
+  //   when it is for something else than this robot or its sha256 is none; kDataLoss for bytes that
+  //   are not what was released; kUnavailable when `fetch` fails, with its words; the disk's
+  //   errors.
   absl::Status Offer(const ReleasedEntry& offered, const Fetch& fetch);
 
   // The server has nothing to offer, and why. What was wrong with an earlier offer is over.
   void SetWaiting(const std::string& waiting);
+  // What is active can't be run, and why: a `problem` until something else is offered.
+  void SetProblem(const std::string& problem);
   // From any thread.
   void SetControllerState(const std::string& controller_state);
 
@@ -63,11 +69,10 @@ class ReleasedStore {
   absl::StatusOr<std::shared_ptr<const ReleasedSet>> Obtain(const ReleasedEntry& offered,
                                                             const Fetch& fetch);
   absl::Status Take(const ReleasedEntry& offered, const Fetch& fetch);
-  void SetProblem(const std::string& problem);
   void Change(const std::function<void(ReleasedState&)>& change);
 
   ReleasedCache cache_;
-  const std::function<void(const std::string&)> log_;
+  const std::function<void(const std::string&)> log_, warn_;
   ReleasedEntry refused_;
   absl::Status refusal_;  // of refused_
   mutable std::mutex mutex_;

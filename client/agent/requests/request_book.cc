@@ -63,12 +63,14 @@ OpenRequest* RequestBook::Named(const std::string& robot, const std::string& req
   return found != open_.end() && found->second.request.name() == request ? &found->second : nullptr;
 }
 
-absl::Status RequestBook::Take(const std::string& robot, const v1::RecalibrationRequest& request) {
+absl::Status RequestBook::Take(const std::string& robot, const v1::RecalibrationRequest& request,
+                               bool is_snapshot) {
   std::lock_guard lock(mutex_);
   OpenRequest* const known = Named(robot, request.name());
   if (!IsOpen(request.state())) return known == nullptr ? absl::OkStatus() : Remove(robot);
   // Answers and the watch overtake each other.
-  if (known != nullptr && request.revision() < known->request.revision()) return absl::OkStatus();
+  if (known != nullptr && !is_snapshot && request.revision() < known->request.revision())
+    return absl::OkStatus();
   OpenRequest changed = known != nullptr ? *known : OpenRequest();
   // What was fetched was another set, should it be changed.
   if (changed.request.pose_set() != request.pose_set()) changed.has_poses = false;

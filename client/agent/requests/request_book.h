@@ -29,7 +29,10 @@ class RequestBook {
 
   // What the server says of a request: an open one takes the place of another one, with nothing
   // fetched or begun for it yet; the one that is here goes when it is not open any more.
-  absl::Status Take(const std::string& robot, const v1::RecalibrationRequest& request);
+  // Of an older revision than the one here it is out of date, unless it is of a snapshot: a server
+  // that was restored from an older copy counts from there.
+  absl::Status Take(const std::string& robot, const v1::RecalibrationRequest& request,
+                    bool is_snapshot = false);
   // The server has no open request of the robot.
   absl::Status Clear(const std::string& robot);
   // Of the request of this name; another one by now is left as it is.

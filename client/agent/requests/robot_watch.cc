@@ -25,7 +25,7 @@ bool RobotWatch::Take(const v1::WatchResponse& response) {
   for (const v1::WatchEvent& event : response.events()) {
     if (event.has_robot()) handlers_.on_robot(event.robot());
     if (!event.has_recalibration_request()) continue;
-    handlers_.on_request(event.recalibration_request());
+    handlers_.on_request(event.recalibration_request(), response.snapshot());
     if (response.snapshot() && IsOpen(event.recalibration_request().state()))
       snapshot_has_open_ = true;
   }

@@ -12,7 +12,8 @@ namespace truepose::agent {
 
 // Called in the watch's thread.
 struct RobotWatchHandlers {
-  std::function<void(const v1::RecalibrationRequest&)> on_request;
+  // `is_snapshot`: as it is at the begin of a watch; else it has just changed.
+  std::function<void(const v1::RecalibrationRequest&, bool is_snapshot)> on_request;
   // The snapshot is whole; whether an open request was in it.
   std::function<void(bool has_open_request)> on_snapshot;
   // Settings, latest nominal revision, active calibration: at the begin and when they change.

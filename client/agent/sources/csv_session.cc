@@ -37,11 +37,13 @@ absl::Status CsvSession::Take(const TextLine& line) {
              absl::StrCat("a line of more than ", line.text.size(), " bytes"), "a reading"});
     return absl::OkStatus();
   }
-  if (IsBlank(line.text) || feed_.was_sealed()) return absl::OkStatus();
+  if (IsBlank(line.text) || told_late_) return absl::OkStatus();
   if (header_.empty()) return TakeHeader(line);
   auto file = formats::ParseSessionFile(absl::StrCat(header_, "\n", line.text, "\n"), path_,
                                         options_.nominal, {.euler = options_.euler});
   if (!file.ok()) {
+    // A sealed session's faults were told when it was taken.
+    if (feed_.was_sealed()) return absl::OkStatus();
     for (const Fault& fault : FaultsOf(file.status()))
       report_({Relocated(fault.field, path_, line.number), fault.found, fault.expected});
     return absl::OkStatus();
@@ -66,13 +68,24 @@ absl::Status CsvSession::TakeHeader(const TextLine& line) {
 absl::Status CsvSession::TakeReading(v1::Reading reading, const TextLine& line) {
   if (settled_.has_value() && !IsSettled(reading, line.number)) return absl::OkStatus();
   if (!feed_.begun()) TRUEPOSE_RETURN_IF_ERROR(Begin(line));
-  if (feed_.was_sealed()) return absl::OkStatus();
-  return feed_.Add(std::move(reading), line.number);
+  if (!feed_.was_sealed()) return feed_.Add(std::move(reading), line.number);
+  TakeSealed(line);
+  return absl::OkStatus();
+}
+
+void CsvSession::TakeSealed(const TextLine& line) {
+  if (++sealed_rows_ <= feed_.readings_before()) return;
+  told_late_ = true;
+  report_({absl::StrCat(path_, ":", line.number),
+           absl::StrCat("a row more than the ", feed_.readings_before(),
+                        " readings of its session, which is sealed: it is not taken, nor are more"),
+           "a new file for new readings"});
 }
 
 bool CsvSession::IsSettled(const v1::Reading& reading, int64_t line) {
   const std::optional<absl::Time> time = TimeOf(reading);
   if (time.has_value()) return settled_->Add(reading, *time);
+  if (feed_.was_sealed()) return false;
   report_({absl::StrCat(path_, ":", line, ": time"), "'" + reading.time() + "'",
            "a time with offset, by which standstills are found"});
   return false;

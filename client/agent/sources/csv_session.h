@@ -23,7 +23,8 @@ struct CsvOptions {
 // The header is the first line that is not blank. The session begins with the first reading and is
 // named by path, header and that line, so that a file read again is the same session and a new file
 // under an old name is a new one. A line that can't be read is reported with its number and left
-// out. A cell must not hold a line end.
+// out, and so are rows behind those of a session that is sealed, of which the first is reported. A
+// cell must not hold a line end.
 class CsvSession {
  public:
   // Everything has to outlive it.
@@ -42,6 +43,8 @@ class CsvSession {
   absl::Status TakeHeader(const TextLine& line);
   absl::Status TakeReading(v1::Reading reading, const TextLine& line);
   absl::Status Begin(const TextLine& line);
+  // A reading of a session that was sealed before.
+  void TakeSealed(const TextLine& line);
   bool IsSettled(const v1::Reading& reading, int64_t line);
 
   const CsvOptions& options_;
@@ -50,7 +53,9 @@ class CsvSession {
   SessionFeed feed_;
   std::optional<Settled> settled_;
   std::string header_;
-  v1::Session parsed_;  // what the file says of its session
+  int64_t sealed_rows_ = 0;  // readings seen of a sealed session
+  bool told_late_ = false;   // of a row behind them
+  v1::Session parsed_;       // what the file says of its session
 };
 
 }  // namespace truepose::agent

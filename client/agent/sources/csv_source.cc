@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
 #include "core/base/status_macros.h"
 
 namespace truepose::agent {
@@ -42,6 +43,7 @@ class Follower {
   void StartAnew() {
     session_ = std::make_unique<CsvSession>(options_.csv, options_.path, sink_, stop_, report_);
     last_line_ = Clock::now();
+    was_idle_ = false;
   }
 
   // What ends a session is for a person to see to; the next file may be good again.
@@ -55,7 +57,15 @@ class Follower {
 
   void Use(const std::vector<TextLine>& lines) {
     for (const TextLine& line : lines) {
-      if (session_ != nullptr) Guard(session_->Take(line));
+      if (session_ != nullptr) {
+        Guard(session_->Take(line));
+      } else if (std::exchange(was_idle_, false)) {
+        report_({absl::StrCat(options_.path, ":", line.number),
+                 absl::StrCat("a line after the session was sealed, since none came for ",
+                              options_.seal_after.count() / 1000.0,
+                              " s: it is not taken, nor are more"),
+                 "a new file, or a longer seal_after_s"});
+      }
     }
   }
 
@@ -67,7 +77,9 @@ class Follower {
     const bool over = state == FileState::kRewritten || state == FileState::kReplaced;
     if (session_ != nullptr && (over || IsIdle(state))) {
       Guard(session_->End());
-      if (!over) session_.reset();  // further lines would be of a sealed session
+      // Further lines would be of a sealed session.
+      if (!over && session_ != nullptr) was_idle_ = true;
+      if (!over) session_.reset();
     } else if (session_ != nullptr && state == FileState::kEnd) {
       Guard(session_->Flush());
     }
@@ -85,6 +97,7 @@ class Follower {
   const Stop& stop_;
   GrowingFile file_;
   std::unique_ptr<CsvSession> session_;  // nullptr: nothing of this file is used any more
+  bool was_idle_ = false;                // and therefore sealed; no line has come since
   Clock::time_point last_line_;
 };
 

@@ -16,7 +16,7 @@ struct CsvSourceOptions {
   // Looked at so often: by time and not by the kernel's notices, which network drives don't send.
   std::chrono::milliseconds poll{200};
   // The session is sealed when no line came for so long; 0 = when another file takes the place of
-  // this one.
+  // this one. Lines that come later are not taken; the first is reported.
   std::chrono::milliseconds seal_after{0};
 };
 

@@ -28,6 +28,8 @@ class SessionFeed {
   bool begun() const { return !progress_.session.empty(); }
   // It was sealed before we came: nothing can be added, and nothing need be.
   bool was_sealed() const { return progress_.sealed; }
+  // Readings that it had when Begin found it.
+  int64_t readings_before() const { return progress_.readings; }
   const std::string& session() const { return progress_.session; }
 
   // Goes on behind the readings that the session has, for who makes readings instead of reading

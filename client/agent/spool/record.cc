@@ -42,4 +42,14 @@ std::optional<Record> ParseRecord(std::string_view bytes) {
   return Record{static_cast<RecordKind>(kind), payload};
 }
 
+bool HoldsRecord(std::string_view bytes) {
+  for (; bytes.size() >= kRecordHeader; bytes.remove_prefix(1)) {
+    const auto kind = static_cast<RecordKind>(bytes[8]);
+    // Most places are none by their kind, and need no checksum.
+    if (kind < RecordKind::kBegin || kind > RecordKind::kSeal) continue;
+    if (ParseRecord(bytes).has_value()) return true;
+  }
+  return false;
+}
+
 }  // namespace truepose::agent

@@ -32,4 +32,7 @@ struct Record {
 // The record that `bytes` begin with; none when it is not whole or its checksum differs.
 std::optional<Record> ParseRecord(std::string_view bytes);
 
+// Whether a whole record of a known kind begins anywhere in `bytes`.
+bool HoldsRecord(std::string_view bytes);
+
 }  // namespace truepose::agent

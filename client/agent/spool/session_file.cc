@@ -85,29 +85,30 @@ absl::StatusOr<std::unique_ptr<SessionFile>> SessionFile::Open(Disk& disk, Budge
   return file;
 }
 
-std::string SessionFile::ReadBytes(int64_t offset, size_t size) const {
-  std::string bytes(size, '\0');
-  size_t filled = 0;
-  while (filled < size) {
-    const ssize_t got = pread(descriptor_, bytes.data() + filled, size - filled,
-                              offset + static_cast<off_t>(filled));
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) break;
-    filled += static_cast<size_t>(got);
-  }
-  bytes.resize(filled);
-  return bytes;
+absl::StatusOr<std::string> SessionFile::ReadBytes(int64_t offset, int64_t size) const {
+  return ReadWhole(disk_, descriptor_, offset, static_cast<size_t>(size), path_);
 }
 
 absl::Status SessionFile::Load() {
   struct stat status {};
   if (fstat(descriptor_, &status) != 0) return DiskError(path_);
-  if (ReadBytes(0, kMagic.size()) != kMagic) return absl::DataLossError(path_ + ": no spool file");
+  const auto magic = static_cast<int64_t>(kMagic.size());
+  TRUEPOSE_ASSIGN_OR_RETURN(const std::string begin,
+                            ReadBytes(0, std::min<int64_t>(magic, status.st_size)));
+  if (begin != kMagic) return absl::DataLossError(path_ + ": no spool file");
+  TRUEPOSE_RETURN_IF_ERROR(TakeWholeRecords(status.st_size));
+  if (content_.name().empty()) return absl::DataLossError(path_ + ": its begin is not whole");
+  budget_.Take(end_);
+  return CutTail(status.st_size);
+}
+
+absl::Status SessionFile::TakeWholeRecords(int64_t size) {
   int64_t offset = kMagic.size();
   for (bool whole = true; whole;) {
-    const std::string chunk = ReadBytes(offset, kChunk);
+    TRUEPOSE_ASSIGN_OR_RETURN(const std::string chunk,
+                              ReadBytes(offset, std::min<int64_t>(kChunk, size - offset)));
     size_t used = 0;
-    while ((whole = used < chunk.size())) {
+    while (used < chunk.size()) {
       const auto record = ParseRecord(std::string_view(chunk).substr(used));
       if (!record || !Take(*record, offset + static_cast<int64_t>(used))) break;
       used += record->size();
@@ -115,10 +116,8 @@ absl::Status SessionFile::Load() {
     whole = used > 0;
     offset += static_cast<int64_t>(used);
   }
-  if (content_.name().empty()) return absl::DataLossError(path_ + ": its begin is not whole");
-  end_ = offset;
-  budget_.Take(end_);
-  return CutTail(status.st_size);
+  if (!content_.name().empty()) end_ = offset;
+  return absl::OkStatus();
 }
 
 bool SessionFile::Take(const Record& record, int64_t offset) {
@@ -143,28 +142,30 @@ bool SessionFile::Take(const Record& record, int64_t offset) {
 }
 
 absl::Status SessionFile::CutTail(int64_t size) {
-  cut_bytes_ = size - end_;
-  if (cut_bytes_ == 0) return absl::OkStatus();
-  const std::string tail = ReadBytes(end_, static_cast<size_t>(cut_bytes_));
-  const int cut = open(CutPath(path_).c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
-  if (cut >= 0) {
-    // A disk without space for the copy must not keep the spool from starting.
-    if (disk_.Write(cut, tail, 0) < 0) unlink(CutPath(path_).c_str());
-    close(cut);
+  if (size == end_) return absl::OkStatus();
+  TRUEPOSE_ASSIGN_OR_RETURN(const std::string tail, ReadBytes(end_, size - end_));
+  // A torn write ends the file; what is whole behind the damage was answered for.
+  if (HoldsRecord(std::string_view(tail).substr(1))) {
+    return absl::DataLossError(absl::StrCat(path_, ": damaged behind reading ", readings_,
+                                            ", at byte ", end_, ", with whole records behind it"));
   }
-  if (disk_.Truncate(descriptor_, end_) != 0) return DiskError(path_);
-  return disk_.Sync(descriptor_) == 0 ? absl::OkStatus() : DiskError(path_);
+  TRUEPOSE_RETURN_IF_ERROR(WriteNewFile(disk_, FreshPath(CutPath(path_)), tail));
+  if (!CutBack()) return DiskError(path_);
+  cut_bytes_ = size - end_;
+  return absl::OkStatus();
 }
 
 bool SessionFile::CutBack() {
   return disk_.Truncate(descriptor_, end_) == 0 && disk_.Sync(descriptor_) == 0;
 }
 
-absl::Status SessionFile::Extend(const std::string& records) {
+absl::Status SessionFile::Extend(const std::string& records, bool is_seal) {
   if (torn_ && !CutBack()) return DiskError(path_);
   torn_ = false;
   const auto size = static_cast<int64_t>(records.size());
-  if (!budget_.TryTake(size)) {
+  if (is_seal) {
+    budget_.Take(size);
+  } else if (!budget_.TryTake(size)) {
     return absl::ResourceExhaustedError(
         absl::StrCat("the spool is full: ", budget_.used(), " of ", budget_.limit(), " bytes"));
   }
@@ -215,7 +216,8 @@ absl::StatusOr<int64_t> SessionFile::Append(int64_t first_number,
   std::lock_guard appending(append_);
   const int64_t has = this->readings();
   const auto size = static_cast<int64_t>(readings.size());
-  const int64_t repeats = std::clamp<int64_t>(has + 1 - first_number, 0, size);
+  const int64_t repeats =
+      std::clamp<int64_t>(has + 1 - std::max<int64_t>(0, first_number), 0, size);
   TRUEPOSE_RETURN_IF_ERROR(CheckNumbers(first_number, readings.size() - repeats, has));
   TRUEPOSE_RETURN_IF_ERROR(CompareRepeats(first_number, readings, repeats));
   if (repeats == size) return has;
@@ -247,11 +249,8 @@ absl::Status SessionFile::Seal(int64_t readings) {
   if (sealed()) return absl::OkStatus();
   std::string record;
   AppendRecord(RecordKind::kSeal, "", &record);
-  // Not of the budget: a full spool must not keep a session from its end.
-  budget_.Give(static_cast<int64_t>(record.size()));
-  const absl::Status status = Extend(record);
-  budget_.Take(static_cast<int64_t>(record.size()));
-  TRUEPOSE_RETURN_IF_ERROR(status);
+  // A full spool must not keep a session from its end.
+  TRUEPOSE_RETURN_IF_ERROR(Extend(record, /*is_seal=*/true));
   std::lock_guard lock(mutex_);
   sealed_ = true;
   return absl::OkStatus();
@@ -286,7 +285,9 @@ absl::StatusOr<std::vector<v1::Reading>> SessionFile::Read(int64_t number, int m
   }
   std::vector<v1::Reading> readings;
   for (size_t size = kReadAhead; readings.empty(); size = kChunk) {
-    const std::string chunk = ReadBytes(offset, std::min(size, static_cast<size_t>(end - offset)));
+    TRUEPOSE_ASSIGN_OR_RETURN(
+        const std::string chunk,
+        ReadBytes(offset, std::min(static_cast<int64_t>(size), end - offset)));
     size_t used = 0;
     while (static_cast<int>(readings.size()) < most) {
       const auto record = ParseRecord(std::string_view(chunk).substr(used));

@@ -43,8 +43,11 @@ class SessionFile {
                                                              const v1::Session& content,
                                                              const std::string& request);
   // Reads all of the file and cuts what is behind its last whole record, which was never answered
-  // for; the bytes cut are kept in `path` with .cut in place of its suffix.
-  // @returns kDataLoss when not even the first record is whole: Create did not return then.
+  // for; the bytes cut are kept durably, in `path` with .cut in place of its suffix, or .cut.2 and
+  // so on when that is there. A failure leaves the file as it is.
+  // @returns kDataLoss when not even the first record is whole (Create did not return then), and
+  //   when whole records stand behind a damaged one, which were answered for; the errors of the
+  //   disk, also when it can't be read or has no space for what is cut.
   static absl::StatusOr<std::unique_ptr<SessionFile>> Open(Disk& disk, Budget& budget,
                                                            const std::string& path);
   // Gives its bytes back to the budget; the file stays.
@@ -80,16 +83,18 @@ class SessionFile {
   absl::Status Load();
   // Takes over a whole record at `offset`; false when it can't stand there.
   bool Take(const Record& record, int64_t offset);
+  absl::Status TakeWholeRecords(int64_t size);
   absl::Status CutTail(int64_t size);
   // What a failed write left behind the end goes. false: errno says why it can't.
   bool CutBack();
-  // `records` behind the end, durable, or the file as it was.
-  absl::Status Extend(const std::string& records);
+  // `records` behind the end, durable, or the file as it was. A seal is not refused by a budget
+  // that is used up.
+  absl::Status Extend(const std::string& records, bool is_seal = false);
   absl::Status CompareRepeats(int64_t first_number, const std::vector<v1::Reading>& readings,
                               int64_t repeats) const;
   absl::Status CheckNumbers(int64_t first_number, size_t added, int64_t has) const;
   int64_t OffsetNear(int64_t number, int64_t* found) const;
-  std::string ReadBytes(int64_t offset, size_t size) const;
+  absl::StatusOr<std::string> ReadBytes(int64_t offset, int64_t size) const;
 
   Disk& disk_;
   Budget& budget_;

@@ -1,5 +1,6 @@
 #include "client/agent/spool/spool.h"
 
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -96,8 +97,8 @@ absl::Status Spool::Load() {
 absl::Status Spool::LoadOne(const std::string& file) {
   auto session = SessionFile::Open(disk_, budget_, file);
   if (absl::IsDataLoss(session.status())) {
-    // Its begin was never answered for; what it is is for a person to see.
-    std::rename(file.c_str(), (file + ".unreadable").c_str());
+    // For a person to see; out of the way of a source that begins this session again.
+    std::rename(file.c_str(), FreshPath(file + ".unreadable").c_str());
   }
   TRUEPOSE_RETURN_IF_ERROR(session.status());
   if ((*session)->cut_bytes() > 0)
@@ -147,8 +148,10 @@ std::vector<Spool::Session> Spool::Sessions() const {
 
 absl::Status Spool::SetDone(const std::string& name) {
   std::lock_guard lock(mutex_);
-  const std::string path = PathOf(name, kDoneSuffix);
-  if (std::rename(PathOf(name, kOpenSuffix).c_str(), path.c_str()) != 0) return DiskError(path);
+  const std::string path = PathOf(name, kDoneSuffix), open = PathOf(name, kOpenSuffix);
+  // The seal here may be older by as long as the server was away.
+  if (utimensat(AT_FDCWD, open.c_str(), nullptr, 0) != 0) return DiskError(open);
+  if (std::rename(open.c_str(), path.c_str()) != 0) return DiskError(path);
   const DoneSession done = DoneOf(path);
   // What the session gives back when the last user has let it go.
   budget_.Take(done.bytes);
@@ -183,11 +186,15 @@ absl::StatusOr<Spool::Session> Spool::Reopen(const std::string& name) {
   const auto found = done_.find(name);
   if (found == done_.end()) return absl::NotFoundError(name + " is not done");
   if (std::rename(PathOf(name, kDoneSuffix).c_str(), path.c_str()) != 0) return DiskError(path);
+  auto session = SessionFile::Open(disk_, budget_, path);
+  if (!session.ok()) {
+    std::rename(path.c_str(), PathOf(name, kDoneSuffix).c_str());
+    return session.status();
+  }
   budget_.Give(found->second.bytes);
   done_.erase(found);
-  TRUEPOSE_ASSIGN_OR_RETURN(auto session, SessionFile::Open(disk_, budget_, path));
   order_.push_back(name);
-  return sessions_[name] = std::move(session);
+  return sessions_[name] = *std::move(session);
 }
 
 absl::Status Spool::Remove(const std::string& name) {
@@ -198,7 +205,9 @@ absl::Status Spool::Remove(const std::string& name) {
   if (unlink(path.c_str()) != 0) return DiskError(path);
   budget_.Give(found->second.bytes);
   done_.erase(found);
-  unlink(PathOf(name, ".cut").c_str());
+  const std::string cut = PathOf(name, ".cut");
+  unlink(cut.c_str());
+  for (int number = 2; unlink(absl::StrCat(cut, ".", number).c_str()) == 0;) ++number;
   return SyncFolder(disk_, sessions_folder_);
 }
 

@@ -26,8 +26,8 @@ struct SpoolOptions {
 
 // A done session, as its file's name and times tell.
 struct DoneSession {
-  std::string session;  // sessions/{uuid}
-  std::chrono::system_clock::time_point sealed;
+  std::string session;                           // sessions/{uuid}
+  std::chrono::system_clock::time_point sealed;  // on the server: when SetDone was called
   int64_t bytes = 0;
 };
 

@@ -1,5 +1,8 @@
 #include "client/agent/lines/line_server.h"
 
+#include <atomic>
+#include <thread>
+
 #include "absl/strings/str_cat.h"
 #include "client/agent/lines/socket_address.h"
 #include "gmock/gmock.h"
@@ -45,11 +48,11 @@ TEST_F(LineServerTest, LinesAreWholeHoweverTheyCome) {
 TEST_F(LineServerTest, ALineThatIsTooLongIsSkipped) {
   const auto server = Start({.largest_line = 100});
   LineClient client(server->address());
-  client.Send(absl::StrCat("before\n", std::string(300'000, 'x'), "\nafter\n"));
+  client.Send(absl::StrCat("before\n{", std::string(300'000, 'x'), "\nafter\n"));
   EXPECT_EQ(client.ReadLine(), "<before>");
   EXPECT_EQ(client.ReadLine(), "over 100");
   EXPECT_EQ(client.ReadLine(), "<after>");
-  client.Send(absl::StrCat(std::string(150, 'y'), "\nlast\n"));
+  client.Send(absl::StrCat("{", std::string(150, 'y'), "\nlast\n"));
   EXPECT_EQ(client.ReadLine(), "over 100");
   EXPECT_EQ(client.ReadLine(), "<last>");
 }
@@ -89,6 +92,63 @@ TEST_F(LineServerTest, HttpGetsFiguresAndNothingElse) {
   LineClient page(server->address());
   page.Send("POST / HTTP/1.1\r\nHost: pc\r\n\r\n{\"op\":\"decline\"}\n");
   EXPECT_EQ(page.ReadLine(), std::nullopt);
+}
+
+// Would catch a web page whose request line is too long to be seen as one of HTTP, and whose body
+// is then taken for messages.
+TEST_F(LineServerTest, ATooLongLineThatIsNoMessageEndsTheConnection) {
+  const auto server = Start({.largest_line = 100});
+  LineClient page(server->address());
+  page.Send("POST /" + std::string(200, 'a'));
+  EXPECT_EQ(page.ReadLine(), "over 100");
+  page.Send(std::string(200, 'a') + " HTTP/1.1\r\nHost: pc\r\n\r\n{\"op\":\"decline\"}\n");
+  EXPECT_EQ(page.ReadLine(), std::nullopt);
+  LineClient whole(server->address());
+  whole.Send("first\n" + std::string(200, 'a') + "\n{\"op\":\"decline\"}\n");
+  EXPECT_EQ(whole.ReadLine(), "<first>");
+  EXPECT_EQ(whole.ReadLine(), "over 100");
+  EXPECT_EQ(whole.ReadLine(), std::nullopt);
+}
+
+// Answers with much.
+class Talker : public LineHandler {
+ public:
+  explicit Talker(std::atomic<size_t>& answered) : answered_(answered) {}
+  std::string Answer(const std::vector<std::string>& lines) override {
+    answered_ += lines.size();
+    std::string out;
+    for (const std::string& line : lines)
+      absl::StrAppend(&out, line, std::string(50'000, '.'), "\n");
+    return out;
+  }
+  std::string AnswerTooLong(size_t) override { return "\n"; }
+
+ private:
+  std::atomic<size_t>& answered_;
+};
+
+// Would catch small messages with large answers that fill the memory while nobody reads them, and
+// messages that are forgotten over it.
+TEST_F(LineServerTest, WhoDoesNotReadIsNotAnswered) {
+  constexpr size_t kLines = 1500;
+  std::atomic<size_t> answered = 0;
+  const auto server = *LineServer::Start(
+      {.listen = "127.0.0.1:0", .largest_backlog = 1000},
+      [&] { return std::make_unique<Talker>(answered); }, [] { return ""; });
+  LineClient client(server->address());
+  std::string lines;
+  for (size_t i = 0; i < kLines; ++i) absl::StrAppend(&lines, i, "\n");
+  client.Send(lines);
+  while (answered == 0) std::this_thread::yield();
+  // The server's only thread is done with the first one when it answers another.
+  LineClient other(server->address());
+  other.Send("x\n");
+  EXPECT_TRUE(other.ReadLine().has_value());
+  // 75 MB are more than the system takes over for a connection.
+  EXPECT_LT(answered, kLines);
+  for (size_t i = 0; i < kLines; ++i)
+    ASSERT_EQ(client.ReadLine().value_or("none").substr(0, 6),
+              (absl::StrCat(i, "......")).substr(0, 6));
 }
 
 TEST_F(LineServerTest, AnAddressThatIsTakenOrNone) {

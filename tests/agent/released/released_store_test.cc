@@ -92,6 +92,28 @@ TEST_F(ReleasedStoreTest, OthersOpenWhatRuns) {
   }
 }
 
+// Would catch a path that stays at the table before, for a process that ended between the list and
+// the link.
+TEST_F(ReleasedStoreTest, AStartMendsThePathThatOthersOpen) {
+  ASSERT_THAT(Offer(first_), IsOk());
+  ASSERT_THAT(Offer(second_), IsOk());
+  const std::string path = store_->state()->path;
+  std::filesystem::remove(path);
+  std::filesystem::create_symlink(first_.entry.sha256 + ".table", path);
+  Restart();
+  EXPECT_EQ(std::filesystem::read_symlink(path), second_.entry.sha256 + ".table");
+  EXPECT_EQ(Problem(), "");
+}
+
+// Would catch a file that a server lets an agent write anywhere.
+TEST_F(ReleasedStoreTest, ADigestThatIsNoneBecomesNoFile) {
+  TestTable table = first_;
+  table.entry.sha256 = "../../elsewhere";
+  EXPECT_THAT(Offer(table), HasCode(absl::StatusCode::kFailedPrecondition));
+  EXPECT_EQ(fetched_, 0);
+  EXPECT_THAT(Problem(), HasSubstr("../../elsewhere"));
+}
+
 // Would catch a reader whose table goes away under it.
 TEST_F(ReleasedStoreTest, WhoHoldsASetMayUseIt) {
   ASSERT_THAT(Offer(first_), IsOk());

@@ -149,6 +149,34 @@ TEST_F(CsvSourceTest, AnIdleFileIsSealed) {
   ASSERT_TRUE(IsSealed(0));
 }
 
+// Would catch readings that nobody misses since their file was silent for too long: in the process
+// that sealed it and in the next one, which must not tell of the lines that were taken.
+TEST_F(CsvSourceTest, LinesAfterTheSealAreReportedOnce) {
+  CsvSourceOptions options = Options();
+  options.seal_after = std::chrono::milliseconds(20);
+  Append(std::string(kHeader) + Row("1") + Row("x"));
+  StartSource(options);
+  ASSERT_TRUE(IsSealed(0));
+  StopSource();
+  StartSource(options);
+  Replace(std::string(kHeader) + Row("5"));
+  ASSERT_TRUE(IsSealed(1));
+  const std::string before = faults_.Text();
+  EXPECT_EQ(before, path_ + ":3: q1_rad: found 'x', expected a number\n") << "once, not again";
+  Append(Row("6") + Row("7"));
+  while (faults_.Text() == before) std::this_thread::yield();
+  StopSource();
+  EXPECT_THAT(faults_.Text().substr(before.size()), HasSubstr(path_ + ":3: found a line after"));
+  const std::string until = faults_.Text();
+  EXPECT_EQ(until.find(":4:"), std::string::npos);
+  StartSource(options);
+  while (faults_.Text() == until) std::this_thread::yield();
+  StopSource();
+  EXPECT_THAT(faults_.Text().substr(until.size()),
+              HasSubstr(path_ + ":3: found a row more than the 1 readings"));
+  EXPECT_EQ(faults_.Text().find(":4:"), std::string::npos);
+}
+
 // Would catch readings that are dropped while the spool is full.
 TEST_F(CsvSourceTest, AFullSpoolIsWaitedOut) {
   int refused = 0;

@@ -90,6 +90,21 @@ TEST_F(FolderSourceTest, ARestartKnowsWhatWasTaken) {
   EXPECT_EQ(sink_.Sessions().size(), 2u);
 }
 
+// Would catch rows that are added to a file when its session is sealed, and that nobody misses.
+TEST_F(FolderSourceTest, RowsAddedLaterAreReported) {
+  const std::string text = std::string(kHeader) + "1,0,1\nx,0,1\n2,0,1\n";
+  Put("a.csv", text);
+  StartSource();
+  ASSERT_TRUE(HasSealed(1));
+  const std::string before = faults_.Text();
+  Put("a.csv", text + "3,0,1\n4,0,1\n");
+  while (faults_.Text() == before) std::this_thread::yield();
+  StopSource();
+  EXPECT_THAT(faults_.Text().substr(before.size()),
+              HasSubstr("a.csv:5: found a row more than the 2 readings"));
+  EXPECT_EQ(faults_.Text().find("a.csv:6"), std::string::npos);
+}
+
 // Would catch one bad file that keeps the others waiting, or that is reported every second.
 TEST_F(FolderSourceTest, ABadFileIsReportedOnce) {
   Put("a.csv", "what,is,this\n1,2,3\n");

@@ -128,5 +128,32 @@ TEST_F(SpoolTest, WhatCantBeReadIsLeftAside) {
   EXPECT_TRUE(std::filesystem::exists(File(2, ".spool.unreadable")));
 }
 
+// Would catch a session that is removed early since the server was away for longer than it is kept.
+TEST_F(SpoolTest, ASessionIsDoneFromItsSealOnTheServerOn) {
+  ASSERT_THAT(Add(1, 2)->Seal(2), IsOk());
+  using FileClock = std::filesystem::file_time_type::clock;
+  std::filesystem::last_write_time(File(1, ".spool"), FileClock::now() - std::chrono::hours(240));
+  const auto before = std::chrono::system_clock::now();
+  ASSERT_THAT(spool_->SetDone(Name(1)), IsOk());
+  // A file's time is kept in whole seconds, by a clock that ticks coarsely.
+  EXPECT_GE(spool_->Done().at(0).sealed, before - std::chrono::seconds(2));
+  Open();
+  EXPECT_GE(spool_->Done().at(0).sealed, before - std::chrono::seconds(2)) << "after a start";
+}
+
+// Would catch a damaged session that is cut, or not told of, or in the way of its source.
+TEST_F(SpoolTest, ADamagedSessionIsKeptWhole) {
+  Add(1, 3);
+  spool_.reset();
+  const auto size = std::filesystem::file_size(File(1, ".spool"));
+  std::fstream(File(1, ".spool"), std::ios::in | std::ios::out | std::ios::binary)
+      .seekp(static_cast<int64_t>(size) - 120)
+      .put('!');
+  Open();
+  EXPECT_EQ(spool_->notes().size(), 1u);
+  EXPECT_EQ(std::filesystem::file_size(File(1, ".spool.unreadable")), size);
+  Add(1, 3);
+}
+
 }  // namespace
 }  // namespace truepose::agent

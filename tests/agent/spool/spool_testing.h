@@ -47,6 +47,16 @@ class FaultyDisk : public Disk {
     errno = error;
     return -1;
   }
+  ssize_t Read(int descriptor, char* bytes, size_t size, off_t offset) override {
+    if (offset + static_cast<off_t>(size) <= readable) {
+      return Disk::Read(descriptor, bytes, size, offset);
+    }
+    if (offset < readable) {
+      return Disk::Read(descriptor, bytes, static_cast<size_t>(readable - offset), offset);
+    }
+    errno = EIO;
+    return -1;
+  }
   int Sync(int descriptor) override { return Fails() ? -1 : Disk::Sync(descriptor); }
   int Truncate(int descriptor, off_t size) override {
     return Fails() ? -1 : Disk::Truncate(descriptor, size);
@@ -55,6 +65,7 @@ class FaultyDisk : public Disk {
   int countdown = 1 << 30;
   int failures = 1 << 30;  // after so many, all is well again
   int error = ENOSPC;
+  off_t readable = off_t{1} << 40;  // what is behind it is a bad sector
 
  private:
   bool Fails() {
