@@ -17,6 +17,8 @@ constexpr int kMostLookups = 60;
 // Of fewer than six joints, whose remainder does not say when they have come to rest: they do
 // within what the tolerances of the flange are to joints.
 constexpr double kSettled = 10;
+// They may move by so many times the error that they undo, as in exact compensation.
+const double kLargestGain = 0.1 / ExactOptions().singular_threshold;
 
 // Any arm. A lookup gives the pose that the nominal chain has to reach, which gives the next place
 // to look up: the correction changes little with the joints, so a round takes 1e-3 of the error.
@@ -42,6 +44,7 @@ class TableSlowWay {
     X_target_ = NominalFlange(table_.arm, start_);
     result.smallest_singular_value = SmallestSingularValue(table_.arm, start_, task_.length_m);
     Look(&result);
+    error_ = remainder_.head<3>().norm() / task_.length_m + remainder_.tail<3>().norm();
     if (result.smallest_singular_value < table_.header.smallest_singular_value) {
       result.outcome = Outcome::kNearSingular;
     } else {
@@ -54,16 +57,36 @@ class TableSlowWay {
   int Joints() const { return table_.header.joints; }
 
   void Iterate(Correction* result) {
-    result->outcome = Outcome::kUnreachable;
     for (int round = 0; round < kMostLookups; ++round) {
       const double moved = Move(result);
+      if (Joints() < 6 && !settled_) break;
       if (!Look(result)) return;
       const bool done =
           Joints() < 6 ? moved <= kSettled * tolerance_.rotation_rad : tolerance_.IsMet(remainder_);
       if (!done) continue;
       result->outcome = Outcome::kOk;
+      if (Joints() < 6 && IsLargeForItsError(*result)) Refuse(result);
       return;
     }
+    result->outcome = Outcome::kUnreachable;
+    if (Joints() < 6) Refuse(result);
+  }
+
+  // The weighted coordinates hardly tell where a joint should be: the least remainder is far away,
+  // or was not found.
+  void Refuse(Correction* result) {
+    std::copy_n(start_, Joints(), result->q.data());
+    Look(result);
+    result->outcome = Outcome::kNearSingular;
+  }
+
+  bool IsLargeForItsError(const Correction& result) const {
+    double largest = 0;
+    for (int i = 0; i < Joints(); ++i) {
+      const double unit = table_.arm.nominal.prismatic[i] ? task_.length_m : 1;
+      largest = std::max(largest, std::abs(result.q[i] - start_[i]) / unit);
+    }
+    return largest > kLargestGain * error_;
   }
 
   // To joints whose nominal flange is where the correction of the last ones asks for.
@@ -73,6 +96,7 @@ class TableSlowWay {
     LeastSquaresResult solved = SolveLeastSquares(task_, start_);
     if (solved.reached && Joints() > 6) solved = DrawTowards(task_, start_, solved);
     result->iterations += solved.iterations;
+    settled_ = solved.settled;
     double moved = 0;
     for (int i = 0; i < Joints(); ++i)
       moved = std::max(moved, std::abs(solved.v[i] - result->q[i]));
@@ -106,6 +130,8 @@ class TableSlowWay {
   LeastSquaresTask task_;
   Pose X_target_, X_nominal_, X_corrected_;
   Twist remainder_;
+  double error_ = 0;      // before correction, rad: lengths over the characteristic one
+  bool settled_ = false;  // whether the last joints are the end of a search
 };
 
 // The target's own joints, and why.

@@ -26,7 +26,9 @@ inline constexpr double kTableRotationTolerance = 1e-9;  // rad
 //   kOutsideDomain    of axis `joint`: the target is not in the domain, or the corrected joints not
 //                     in its margin; the nominal joints are in q.
 //   kNearSingular     the smallest singular value of the nominal Jacobian at the target is below
-//                     header.smallest_singular_value; the nominal joints are in q.
+//                     header.smallest_singular_value, or, with fewer than six joints, joints would
+//                     move by more than 100 times the error that they undo or do not settle
+//                     (exact.h); the nominal joints are in q.
 //   kBeyondLimit      q would be right but for the limit of controller joint `joint`.
 //   kUnreachable      no joints were found; what is left is in the errors.
 //   kInvalidArgument  a number that is not finite, or a measuring arm.

@@ -107,10 +107,14 @@ class SlowWay {
     return result;
   }
 
-  Correction CorrectionAt(const LeastSquaresResult& solved) const {
+  // Where no readings move the joints so far there is no solution.
+  Correction CorrectionAt(const LeastSquaresResult& solved) {
     Correction result;
     result.iterations = solved.iterations;
-    if (!ReadingsOf(arm_, solved.v.data(), result.q.data())) result.q = q_nominal_;
+    if (!ReadingsOf(arm_, solved.v.data(), result.q.data())) {
+      result.q = q_nominal_;
+      exists_ = false;
+    }
     return result;
   }
 

@@ -66,8 +66,8 @@ struct TableHeader {
   PoseError worst;
   PoseError percentile_95;
   PoseError estimated_worst;           // before the table was built
-  double predicted_accuracy_95_m = 0;  // of the tool; 0: not predicted
-  double near_singular_share = 0;      // of the cells, 0 to 1
+  double predicted_accuracy_95_m = 0;  // of the tool, percentile_95 added; 0: not predicted
+  double near_singular_share = 0;      // of drawn targets of the domain, 0 to 1
   // Correction to joints is refused where the smallest singular value of the nominal Jacobian
   // (B to F, lengths divided by characteristic_length_m, turning joints in rad and sliding ones
   // divided by it) is below this.

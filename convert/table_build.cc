@@ -72,7 +72,9 @@ absl::StatusOr<TableLabels> LabelsOf(const v1::CompensationTableInput& input) {
   return labels;
 }
 
-// Of the tool that the spec names, else of the calibrated target, over the table's domain.
+// Of the tool that the spec names, else of the calibrated target, over the table's domain. The
+// table's own error comes on top, its rotation by the tool's lever: a plain sum, as if both always
+// pointed the same way.
 double PredictedAccuracy(const Prepared& prepared, const v1::Calibration& calibration,
                          const compensation::TableContent& content) {
   const auto sources = AccuracySourcesFrom(prepared.arm.calibrated, calibration);
@@ -87,7 +89,8 @@ double PredictedAccuracy(const Prepared& prepared, const v1::Calibration& calibr
     const JointVector q = domain.axes.ToController(DrawIn(domain, &random));
     covariances.push_back(AccuracyAt(*sources, chain.FromController(q), p_F).covariance);
   }
-  return Radius95(covariances);
+  const compensation::PoseError& table = content.header.percentile_95;
+  return Radius95(covariances) + table.position_m + table.rotation_rad * p_F.norm();
 }
 
 v1::CompensationTableEstimate ToProto(const TableEstimate& estimate) {

@@ -28,6 +28,8 @@ constexpr std::array<std::string_view, 20> kPoseMotions = {
 constexpr char kPoseMotion[] =
     "a motion to a robtarget: the controller finds its joints by its own kinematics, so it is not "
     "corrected";
+constexpr char kMayBeJoints[] =
+    "joint values that are neither a joint motion's target nor a jointtarget's value";
 constexpr char kRobtarget[] = "a robtarget is a pose: not corrected";
 
 template <class List>
@@ -38,6 +40,17 @@ bool Has(const List& list, std::string_view word) {
 bool IsJointTarget(const NumberNode& node) {
   return node.items.size() == 2 && node.items[0].IsFlat() && node.items[1].IsFlat() &&
          node.items[0].items.size() == kAxes && node.items[1].items.size() == kAxes;
+}
+
+// Whether it is, or holds, a jointtarget or six numbers that may be a robjoint. A robtarget's last
+// six do not count.
+bool MayBeJoints(const NumberNode& node) {
+  if (node.IsFlat()) return node.items.size() == kAxes;
+  if (IsJointTarget(node)) return true;
+  const bool all_flat = std::all_of(node.items.begin(), node.items.end(),
+                                    [](const NumberNode& item) { return item.IsFlat(); });
+  const bool is_robtarget = node.items.size() == 4 && all_flat && node.items[0].items.size() == 3;
+  return !is_robtarget && std::any_of(node.items.begin(), node.items.end(), MayBeJoints);
 }
 
 JointTarget TargetOf(const NumberNode& node, std::string_view what) {
@@ -78,6 +91,7 @@ class Reader {
   size_t ReadAt(size_t i) {
     if (words_.Is(i, TokenKind::kUnclear) && words_.Text(i).front() == '"')
       findings_.PassThrough(words_.Line(i), "a text without an end: the rest is not read");
+    if (words_.IsSign(i, "[")) return ReadList(i);
     if (!words_.Is(i, TokenKind::kName)) return i + 1;
     const std::string name = words_.Lower(i);
     if (name == "jointtarget" || name == "robtarget") return ReadDeclaration(i, name);
@@ -86,6 +100,15 @@ class Reader {
     if (words_.IsSign(BehindIndex(Next(i)), ":=") && !IsPart(i)) return ReadValue(i);
     findings_.AddOtherUse(name, words_.Line(i));
     return i + 1;
+  }
+
+  // A list in a call that is no joint motion, such as MoveExtJ or CalcRobT.
+  size_t ReadList(size_t i) {
+    size_t next = i;
+    const auto list = ReadNumberList(words_, &next, Unit::kDegOrMm, false);
+    if (!list.has_value()) return i + 1;
+    if (MayBeJoints(*list)) findings_.PassThrough(words_.Line(i), kMayBeJoints);
+    return next;
   }
 
   // x in r.x, and \ID of a call.
@@ -120,7 +143,8 @@ class Reader {
     const bool whole = list.has_value() && words_.IsSign(words_.SkipLineEnds(next), ";") &&
                        Collect(*list, words_.Text(i), &targets);
     if (!declared_.contains(name)) {
-      if (whole) findings_.PassThrough(words_.Line(i), NotDeclared(i));
+      if (whole || (list.has_value() && MayBeJoints(*list)))
+        findings_.PassThrough(words_.Line(i), NotDeclared(i));
     } else if (!whole) {
       PassValueThrough(name, words_.Line(i));
     }
@@ -155,7 +179,7 @@ class Reader {
     }
     findings_.PassThrough(words_.Line(i),
                           formats::StrCat(words_.Text(i), ": its target is no plain jointtarget"));
-    return target;
+    return next;
   }
 
   // `\Conc,`

@@ -1,5 +1,6 @@
 #include "programs/urscript.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -14,12 +15,26 @@ namespace {
 constexpr std::array<std::pair<std::string_view, int>, 6> kMotions = {
     {{"movej", 1}, {"movel", 1}, {"movep", 1}, {"movec", 2}, {"servoj", 1}, {"servoc", 1}}};
 
+// Lists in them are speeds, forces and offsets, as those in calls of set_... are tools and loads.
+constexpr std::array<std::string_view, 6> kNoTargets = {
+    "speedj", "speedl", "force_mode", "direct_torque", "path_offset_set", "wrench_trans"};
+
+constexpr size_t kJoints = 6;
+
+constexpr char kMayBeJoints[] =
+    "a list of numbers that may be joints, where no known motion has its target";
 constexpr char kPose[] =
     "a pose: the controller finds its joints by its own kinematics, so it is not corrected";
 constexpr char kNotPlain[] = "its target is no plain list of numbers";
 
 // An argument longer than this is not looked through for its end.
 constexpr size_t kLongestArgument = 10000;
+
+// Whether it is, or holds, a list as long as one of joints.
+bool MayBeJoints(const NumberNode& node) {
+  if (node.IsFlat()) return node.items.size() >= kJoints;
+  return std::any_of(node.items.begin(), node.items.end(), MayBeJoints);
+}
 
 class Reader {
  public:
@@ -35,9 +50,10 @@ class Reader {
   // Each returns the place from which to go on, behind `i`.
   size_t ReadAt(size_t i) {
     if (words_.Is(i, TokenKind::kUnclear)) return ReadUnclear(i);
+    if (words_.IsSign(i, "[")) return ReadList(i);
     if (!words_.Is(i, TokenKind::kName)) return i + 1;
     if (const int targets = TargetsOf(i); targets > 0) return ReadMotion(i, targets);
-    if (IsCallOfSet(i)) return SkipCall(i);
+    if (IsCallWithoutTargets(i)) return SkipCall(i);
     if (IsPose(i)) return ReadPose(i);
     if (IsAssignment(i)) return ReadAssignment(i);
     findings_.AddOtherUse(std::string(words_.Text(i)), words_.Line(i));
@@ -60,13 +76,27 @@ class Reader {
     return 0;
   }
 
-  bool IsCallOfSet(size_t i) const {
-    return words_.Text(i).starts_with("set_") && words_.IsSign(i + 1, "(");
+  bool IsCallWithoutTargets(size_t i) const {
+    if (!words_.IsSign(i + 1, "(") || words_.IsSign(i - (i > 0), ".")) return false;
+    const std::string_view name = words_.Text(i);
+    return name.starts_with("set_") ||
+           std::find(kNoTargets.begin(), kNoTargets.end(), name) != kNoTargets.end();
+  }
+
+  // A list that is no motion's target, no variable's value and in no call that is known.
+  size_t ReadList(size_t i) {
+    size_t next = i;
+    const auto list = ReadNumberList(words_, &next, Unit::kRadOrM, true);
+    if (!list.has_value()) return i + 1;
+    const bool is_pose = i > 0 && IsPose(i - 1);
+    if (!is_pose && MayBeJoints(*list)) findings_.PassThrough(words_.Line(i), kMayBeJoints);
+    return next;
   }
 
   // A tool's or load's pose is no target; names in there are uses as everywhere.
   size_t SkipCall(size_t i) {
-    const size_t end = ArgumentEnd(i + 2);
+    size_t end = ArgumentEnd(i + 2);
+    while (words_.IsSign(end, ",")) end = ArgumentEnd(end + 1);
     for (size_t k = i + 2; k < end; ++k) {
       if (!IsPose(k)) ReadInExpression(k);
     }

@@ -5,8 +5,10 @@
 //   movec: the first two
 // and lists given to a variable of which every use is such an argument. Poses p[...] are Cartesian:
 // the controller finds the joints for them by its own kinematics, so that they stay and are listed;
-// so is every other argument that is no plain list. p[...] in calls of set_... (tool, payload) is
-// no target.
+// so is every other argument that is no plain list, and every list of six numbers or more that
+// stands elsewhere: in a call of another function, or in a list of lists. What stands in calls of
+// set_... (tool, payload), speedj, speedl, force_mode, direct_torque, path_offset_set and
+// wrench_trans is no target.
 #pragma once
 
 #include <string_view>

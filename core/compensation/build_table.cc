@@ -59,13 +59,24 @@ void SetFound(const Verification& verification, const TableEstimate& estimate,
                    kStatedOverFound * verification.worst.rotation_rad};
   header->percentile_95 = verification.percentile_95;
   header->estimated_worst = estimate.error;
-  header->near_singular_share = verification.near_singular_share;
+  header->near_singular_share = verification.NearSingularShare();
 }
 
-absl::Status NothingCorrected() {
+// Enough drawn points were corrected to say how well.
+absl::Status CheckVerified(const Verification& verification, const TableSpec& spec) {
+  if (verification.corrected >= spec.verification_points) return absl::OkStatus();
+  const auto percent = [&](int count) { return 100.0 * count / std::max(verification.drawn, 1); };
   FaultList faults;
-  faults.Add("smallest_singular_value", "every point of the domain is nearer to a singularity",
-             "a smaller value, or another domain");
+  faults.Add("verification_points",
+             absl::StrFormat(
+                 "%d of %d drawn points are corrected: %.1f %% are refused near a "
+                 "singularity, %.1f %% beyond a joint limit, %.1f %% outside of the "
+                 "domain",
+                 verification.corrected, verification.drawn, percent(verification.near_singular),
+                 percent(verification.beyond_limit), percent(verification.outside_domain)),
+             absl::StrFormat("%d corrected ones: a smaller smallest_singular_value, or another "
+                             "domain",
+                             spec.verification_points));
   return faults.ToStatus(absl::StatusCode::kFailedPrecondition);
 }
 
@@ -116,7 +127,7 @@ class Builder {
         built_.verification,
         VerifyTable(compensation::MakeTable(built_.content), built_.content.arm,
                     {spec_.verification_points, spec_.seed + 1, kFilled, 1}, hooks_));
-    if (built_.verification.points == 0) return NothingCorrected();
+    TRUEPOSE_RETURN_IF_ERROR(CheckVerified(built_.verification, spec_));
     SetFound(built_.verification, built_.estimate, &built_.content.header);
     return absl::OkStatus();
   }

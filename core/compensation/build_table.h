@@ -35,8 +35,9 @@ struct BuiltTable {
 // Equal inputs give equal content, bit by bit.
 // @param hooks stages "domain", "nodes", "verification"; both may be called some hundred times.
 // @returns the errors of PlanTable and CheckSize, before anything is built; kCancelled;
-//   kFailedPrecondition with a fault when no grid meets the tolerances, or all of the domain is
-//   near a singularity; kInternal of VerifyTable.
+//   kFailedPrecondition with a fault when no grid meets the tolerances, or so much of the
+//   domain is near singularities that not spec.verification_points drawn points are corrected;
+//   kInternal of VerifyTable.
 absl::StatusOr<BuiltTable> BuildTable(const compensation::Arm& arm, const TableSpec& spec,
                                       const TableLabels& labels, const Hooks& hooks);
 

@@ -24,10 +24,11 @@ TablePoint OfMeasuring(const Table& table, const Arm& arm, const double* q) {
   return {Outcome::kOk, Between(compensation::IdentifiedFlange(arm, q), tip.X_BT)};
 }
 
-// Against exact correction, where six coordinates can't be met.
+// Against exact correction, where six coordinates can't be met. Also against joints that exact
+// correction itself refuses: what the table calls ok is to be held to something.
 TablePoint OfFewJoints(const Arm& arm, const double* q, const Correction& corrected) {
   const Correction exact = compensation::CorrectJoints(arm, q, {});
-  if (exact.outcome != Outcome::kOk) return {exact.outcome, {}};
+  if (exact.outcome == Outcome::kInvalidArgument) return {exact.outcome, {}};
   return {Outcome::kOk, Between(compensation::IdentifiedFlange(arm, exact.q.data()),
                                 compensation::IdentifiedFlange(arm, corrected.q.data()))};
 }

@@ -2,8 +2,9 @@
 //
 // The identified flange at the corrected joints is compared with where it should stand: with the
 // nominal flange at the target; with fewer than six joints with the identified flange at exactly
-// corrected joints, since such an arm can't meet all six coordinates. Of a measuring arm the
-// corrected flange is compared with the identified one at the same joints.
+// corrected joints, since such an arm can't meet all six coordinates; where the table corrects and
+// exact compensation refuses, with the best joints that the latter found, so that it counts. Of a
+// measuring arm the corrected flange is compared with the identified one at the same joints.
 #pragma once
 
 #include "compensation/arm.h"

@@ -19,12 +19,33 @@ using compensation::Arm;
 constexpr double kMegabyte = 1 << 20;
 constexpr double kMostBytes = 1e18;  // what an integer holds; such tables are refused
 
-void WidenFolded(const Arm& arm, const TableSpec& spec, const std::vector<bool>& folded,
-                 TableDomain* domain) {
-  if (!spec.box) return;
-  for (int k = 0; k < domain->axes.joints(); ++k)
+// The domain with its folded coordinates as wide as the limits allow.
+TableDomain Widened(const Arm& arm, const TableDomain& domain, const std::vector<bool>& folded) {
+  TableDomain wide = domain;
+  for (int k = 0; k < domain.axes.joints(); ++k)
     if (folded[static_cast<size_t>(k)])
-      domain->range[static_cast<size_t>(k)] = WidestRange(arm, domain->axes, k);
+      wide.range[static_cast<size_t>(k)] = WidestRange(arm, domain.axes, k);
+  return wide;
+}
+
+// Of a box: what does not matter within its narrow range may do so farther out. Then the
+// coordinate is given nodes, and the narrow range back.
+std::vector<bool> FoldAndWiden(const Arm& arm, const TableSpec& spec, const ToleranceUnits& units,
+                               TableDomain* domain) {
+  const TableDomain narrow = *domain;
+  std::vector<bool> folded = FoldedAxes(arm, narrow, units, spec.seed);
+  if (!spec.box) return folded;
+  for (bool changed = true; changed;) {
+    *domain = Widened(arm, narrow, folded);
+    const std::vector<bool> still = FoldedAxes(arm, *domain, units, spec.seed);
+    changed = false;
+    for (size_t k = 0; k < folded.size(); ++k) {
+      if (!folded[k] || still[k]) continue;
+      folded[k] = false;
+      changed = true;
+    }
+  }
+  return folded;
 }
 
 bool Finite(const std::vector<Curvature>& curvatures) {
@@ -49,8 +70,7 @@ double Loosening(const TableEstimate& estimate, const TableSpec& spec) {
 absl::StatusOr<TablePlan> PlanTable(const Arm& arm, const TableSpec& spec) {
   TRUEPOSE_ASSIGN_OR_RETURN(TableDomain domain, DomainOf(arm, spec));
   const ToleranceUnits units{spec.position_tolerance_m, spec.rotation_tolerance_rad};
-  std::vector<bool> folded = FoldedAxes(arm, domain, units, spec.seed);
-  WidenFolded(arm, spec, folded, &domain);
+  std::vector<bool> folded = FoldAndWiden(arm, spec, units, &domain);
   domain.margin = MarginsOf(arm, domain, spec);
   std::vector<Curvature> curvatures = CurvaturesOf(arm, domain, folded, spec.seed);
   if (!Finite(curvatures)) {

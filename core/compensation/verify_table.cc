@@ -71,6 +71,7 @@ class Verifier {
       result_.beyond_limit += point.outcome == Outcome::kBeyondLimit;
       result_.outside_domain += point.outcome == Outcome::kOutsideDomain;
       if (point.outcome != Outcome::kOk) continue;
+      ++result_.corrected;
       drawn_m_.push_back(point.error.position_m);
       drawn_rad_.push_back(point.error.rotation_rad);
     }
@@ -79,15 +80,12 @@ class Verifier {
 
   absl::Status LookAtCells() {
     const int count = static_cast<int>(std::min<int64_t>(cells_, kMostCells));
-    int near_singular = 0;
     for (int i = 0; i < count; ++i) {
       const int64_t cell = cells_ <= kMostCells
                                ? i
                                : static_cast<int64_t>(random_.Below(static_cast<uint64_t>(cells_)));
-      TRUEPOSE_ASSIGN_OR_RETURN(const TablePoint point, LookAt(MiddleOf(cell)));
-      near_singular += point.outcome == Outcome::kNearSingular;
+      TRUEPOSE_RETURN_IF_ERROR(LookAt(MiddleOf(cell)).status());
     }
-    result_.near_singular_share = static_cast<double>(near_singular) / count;
     return absl::OkStatus();
   }
 

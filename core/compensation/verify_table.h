@@ -18,9 +18,14 @@ struct Verification {
   int points = 0;                         // corrected, of both kinds
   compensation::PoseError worst;          // of both kinds
   compensation::PoseError percentile_95;  // of the drawn targets
-  // Of the drawn targets, why there is no correction.
-  int drawn = 0, near_singular = 0, beyond_limit = 0, outside_domain = 0;
-  double near_singular_share = 0;  // of the grid's cells, by their middles
+  // Of the drawn targets, how many were corrected, and why there is no correction.
+  int drawn = 0, corrected = 0, near_singular = 0, beyond_limit = 0, outside_domain = 0;
+
+  // What share of the domain is refused near singularities: drawn targets fill it evenly, whatever
+  // the grid.
+  double NearSingularShare() const {
+    return drawn > 0 ? static_cast<double>(near_singular) / drawn : 0;
+  }
 };
 
 struct VerifyOptions {

@@ -16,8 +16,8 @@ namespace {
 
 // Poses are products of some dozen matrices of numbers below 2.
 constexpr double kRounding = 1e-13;
-// A lookup rounds weights and sums to float, 6e-8 at a time: of the correction, whose rotation moves
-// the flange by about 1 m, and the last step of joints may change what is rounded.
+// A lookup rounds weights and sums to float, 6e-8 at a time: of the correction, whose rotation
+// moves the flange by about 1 m, and the last step of joints may change what is rounded.
 constexpr double kRoundedLookup = 5e-7;
 
 // As fine as a table that is used: errors of about 1 mm leave some hundredths.
@@ -170,6 +170,45 @@ TEST(CorrectByTable, LeavesTheLeastWithFewerJoints) {
         EXPECT_NEAR(by_table.q[i], exact.q[i], 1e-3) << "three nodes leave 1e-4 of the flange";
     }
   }
+}
+
+// Joints over the error that they undo, both in radians.
+double GainOf(const TableContent& content, const JointArray& target, const Correction& corrected) {
+  const Twist error = Between(NominalFlange(content.arm, target.data()),
+                              testing::FlangeByTable(MakeTable(content), target.data()));
+  double moved = 0;
+  for (int i = 0; i < content.header.joints; ++i)
+    moved = std::max(moved, std::abs(corrected.q[i] - target[i]));
+  return moved /
+         (error.head<3>().norm() / content.header.characteristic_length_m + error.tail<3>().norm());
+}
+
+// Would catch joints called ok where the search for them did not settle, or went far for the error:
+// exact correction refuses both. The two differ by how the correction changes along the way, which
+// decides near the border: at most one in ten of what exact correction refuses may pass here.
+TEST(CorrectByTable, RefusesWithFewerJointsWhatExactCorrectionRefuses) {
+  int refused = 0, passed = 0, corrected = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const std::vector<bool> revolute(3 + seed % 3, false);
+    TableContent content = testing::PlainContent(testing::RandomArm(revolute, 1e-2, seed), 0.2);
+    content.header.smallest_singular_value = 1e-3;
+    const Table table = MakeTable(content);
+    Random random(seed);
+    for (int trial = 0; trial < 30; ++trial) {
+      const JointArray q = RandomTarget(content, &random);
+      const Correction by_table = CorrectByTable(table, q.data());
+      const bool ok = by_table.outcome == Outcome::kOk;
+      corrected += ok ? 1 : 0;
+      EXPECT_TRUE(!ok || GainOf(content, q, by_table) <= 100 * (1 + 1e-6)) << seed;
+      EXPECT_TRUE(by_table.outcome != Outcome::kNearSingular || by_table.q == q) << seed;
+      if (CorrectJoints(content.arm, q.data(), {}).outcome == Outcome::kOk) continue;
+      ++refused;
+      passed += ok ? 1 : 0;
+    }
+  }
+  EXPECT_GT(refused, 50);
+  EXPECT_LE(passed, refused / 10);
+  EXPECT_GT(corrected, 1000);
 }
 
 // Coupled joints, other signs, an offset: the same pose, in the controller's numbers.

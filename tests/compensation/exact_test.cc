@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "compensation/effects.h"
 #include "compensation/least_squares.h"
 #include "compensation/singularity.h"
 #include "tests/compensation/arms.h"
@@ -256,6 +257,19 @@ TEST(Exact, FiveJointsMeetThePoint) {
   EXPECT_LT(correction.position_error_m, 1e-7);
   EXPECT_GT(correction.rotation_error_rad, 1e-5);
   EXPECT_LT(correction.rotation_error_rad, 1e-2);
+}
+
+// An effect whose slope is 2 at the target: no readings are found for the joints that are wanted.
+// Would catch the target's own joints handed out as corrected.
+TEST(Exact, WithoutReadingsFewJointsAreRefused) {
+  NamedArm named = truepose::testing::WithErrors("5R", truepose::testing::MeasuringArm(), 1e-3, 6);
+  named.arm.effects[1].cosine[1] = 1;
+  const Eigen::VectorXd q = (Eigen::VectorXd(5) << 0.3, 0.79, -0.9, 0.4, 0.8).finished();
+  JointArray moved{}, readings{};
+  MovedJoints(named.arm, q.data(), moved.data());
+  ASSERT_FALSE(ReadingsOf(named.arm, moved.data(), readings.data()));
+  const Correction correction = CorrectJoints(named.arm, q.data(), {});
+  EXPECT_EQ(correction.outcome, Outcome::kNearSingular) << Name(correction.outcome);
 }
 
 TEST(Exact, BeyondALimitNamesTheJointAndStaysWithin) {

@@ -77,6 +77,22 @@ TEST(TableBuild, FileSaysHowAccurateTheToolWillBe) {
   EXPECT_FALSE(RunTableBuild(without)->header.has_predicted_accuracy_95_m());
 }
 
+// Would catch a prediction that leaves out what the table itself is off by: two tables of the same
+// calibration and domain differ by that alone.
+TEST(TableBuild, AccuracyHasTheTablesOwnErrorInIt) {
+  v1::CompensationTableInput coarse = TableInput();
+  coarse.mutable_spec()->set_position_tolerance_m(2e-3);
+  coarse.mutable_spec()->set_rotation_tolerance_rad(2e-2);
+  const auto fine = RunTableBuild(TableInput());
+  const auto rough = RunTableBuild(coarse);
+  ASSERT_TRUE(fine.ok() && rough.ok()) << rough.status();
+  const double larger = rough->header.verified().position_95_m() -
+                        fine->header.verified().position_95_m();
+  EXPECT_GT(larger, 5e-6);
+  EXPECT_GE(rough->header.predicted_accuracy_95_m() - fine->header.predicted_accuracy_95_m(),
+            larger * (1 - 1e-9));
+}
+
 // Would catch bytes that depend on the time.
 TEST(TableBuild, EqualInputsGiveEqualBytes) {
   const v1::CompensationTableInput input = TableInput();

@@ -104,8 +104,7 @@ TEST_F(MeasuredUr10Table, CorrectsTenThousandPosesOfTheVolume) {
             << 1e3 * worst.position_m << " mm, " << worst.rotation_rad / kDeg << " deg; stated "
             << 1e3 * header.worst.position_m << " mm, " << header.worst.rotation_rad / kDeg
             << " deg; not reached " << targets.unreachable << ", near a singularity "
-            << near_singular << "; of the domain's cells " << 100 * header.near_singular_share
-            << " %\n";
+            << near_singular << "; of the domain " << 100 * header.near_singular_share << " %\n";
   EXPECT_GE(corrected, 10000);
   EXPECT_LE(worst.position_m, 2e-5);
   EXPECT_LE(worst.rotation_rad, 0.005 * kDeg);

@@ -71,6 +71,11 @@ TEST(RapidTest, WhatIsNoTargetIsListed) {
       {"MoveAbsJ [[1,2,3,4,5,6]," + std::string(kNone) + "]+d,v,z,t;", "its target is no plain"},
       {"VAR jointtarget k:=CalcJ(p);", "'k' gets a value that is no plain jointtarget"},
       {"other:=" + Joints("6") + ";", "does not declare as jointtarget"},
+      {"p:=CalcRobT(" + Joints("6") + ",tool0);", "joint values that are neither"},
+      {"MoveExtJ " + Joints("6") + ",vrot10,fine;", "joint values that are neither"},
+      {"Go [" + Joints("6") + "," + Joints("7") + "];", "joint values that are neither"},
+      {"j.robax:=[1,2,3,4,5,6];", "joint values that are neither"},
+      {"VAR robjoint r:=[1,2,3,4,5,6];", "does not declare as jointtarget"},
       {"TPWrite \"abc", "a text without an end"}};
   for (const auto& [line, reason] : cases) {
     const Program program = ReadRapid(line + "\nMoveAbsJ " + Joints("0") + ",v,z,t;");

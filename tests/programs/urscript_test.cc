@@ -33,9 +33,25 @@ TEST(UrScriptTest, OtherListsAreNoTargets) {
   const Program program = ReadUrScript(
       "speedj([1,2,3,4,5,6], 0.5)\nforce_mode_set_damping(0.1)\nx = [1,2,3,4,5,6]\n"
       "# movej([1,2,3,4,5,6])\ntextmsg(\"movej([1,2,3,4,5,6])\")\nset_tcp(p[0,0,0.1,0,0,0])\n"
-      "my.movej([1,2,3,4,5,6])\nmovej_soft([1,2,3,4,5,6])\n");
+      "force_mode(p[0,0,0,0,0,0],[0,0,1,0,0,0],[0,0,9,0,0,0],2,[1,1,1,1,1,1])\n"
+      "set_target_payload(1.5, [0,0,0.1], [1,2,3,4,5,6])\nfoo([1,2,3,4,5])\n");
   EXPECT_EQ(Targets(program), "");
   EXPECT_EQ(Remarks(program), "");
+}
+
+// Would catch joints that reach the robot uncorrected by a way that nobody is told of.
+TEST(UrScriptTest, ListsInOtherCallsAreListed) {
+  for (const char* call :
+       {"go([0,-1.57,1.57,0,0,0])", "foo(1, [1,2,3,4,5,6], v=2)", "my.movej([1,2,3,4,5,6])",
+        "movej_soft([d2r(1),2,3,4,5,6])", "path = [[1,2,3,4,5,6],[6,5,4,3,2,1]]",
+        "path = [[1,2,3,4,5,6], q]", "return [1,2,3,4,5,6]", "x = [1,2,3,4,5,6] + d",
+        "def f(q=[1,2,3,4,5,6]):", "my.speedj([1,2,3,4,5,6])"}) {
+    const Program program = ReadUrScript(std::string(call) + "\n");
+    EXPECT_EQ(Targets(program), "") << call;
+    EXPECT_EQ(Remarks(program),
+              "1 a list of numbers that may be joints, where no known motion has its target\n")
+        << call;
+  }
 }
 
 // Would catch a calculated target that is half replaced, and one that is left without a word.

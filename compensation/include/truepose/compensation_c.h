@@ -99,8 +99,8 @@ typedef struct truepose_table_info {
   uint32_t verification_points;
   double worst_position_m, worst_rotation_rad; /* found at that many points that are no nodes */
   double percentile_95_position_m, percentile_95_rotation_rad;
-  double predicted_accuracy_95_m; /* of the tool; 0: not predicted */
-  double near_singular_share;     /* of the cells of the domain */
+  double predicted_accuracy_95_m; /* of the tool, the table's error included; 0: not predicted */
+  double near_singular_share;     /* of drawn targets of the domain */
   double smallest_singular_value; /* below it correction by the table is refused */
 } truepose_table_info;
 

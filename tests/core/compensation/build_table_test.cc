@@ -8,7 +8,9 @@
 #include <iostream>
 
 #include "compensation/encode_table.h"
+#include "compensation/exact.h"
 #include "compensation/lookup.h"
+#include "compensation/singularity.h"
 #include "core/base/fault.h"
 #include "core/base/random.h"
 #include "core/compensation/table_error.h"
@@ -188,6 +190,95 @@ TEST(BuildTable, TooLargeIsRefusedWithWhatWouldFit) {
   it.spec.rotation_tolerance_rad = 1.5 * deg * testing::kDeg;
   const auto fits = EstimateTable(it.arm, it.spec);
   EXPECT_TRUE(fits.ok()) << fits.status();
+}
+
+// The wrist turns through its singularity.
+Case WristCase() {
+  return {"UR10 through its wrist singularity",
+          testing::DrawnArm(testing::Ur10(), 1),
+          Around(Values({0, -1.2, 1.5, -1.8, 0, 0}), Values({3, .1, .1, .1, .6, 3})),
+          {0, 5}};
+}
+
+// Would catch a share that is of the grid: here one cell spans the singularity, so that its middle
+// is refused and most of it is not.
+TEST(BuildTable, StatesWhatShareOfTheDomainIsRefused) {
+  Case it = WristCase();
+  it.spec.position_tolerance_m = 1e-2;
+  it.spec.rotation_tolerance_rad = 1e-2;
+  const BuiltTable built = MustBuild(it.arm, it.spec);
+  int refused = 0;
+  WorstOf(built.content, 10000, 5, &refused);
+  EXPECT_GT(refused, 500);
+  EXPECT_LT(refused, 9000);
+  // Five standard deviations of a share of 10,000.
+  EXPECT_NEAR(built.content.header.near_singular_share, 1e-4 * refused, 0.025);
+}
+
+// Would catch accuracy that is stated from the few points that were left: of 20 times as many as
+// are asked for, about 1 in 30 is far enough from the singularity.
+TEST(BuildTable, RefusesWhatTooFewPointsWereVerifiedFor) {
+  Case it = WristCase();
+  it.spec.ranges[4] = {-0.1, 0.1};
+  const Eigen::VectorXd near_rim = Values({0, -1.2, 1.5, -1.8, 0.097, 0});
+  it.spec.smallest_singular_value = compensation::SmallestSingularValue(
+      it.arm, near_rim.data(), compensation::CharacteristicLength(it.arm.nominal));
+  const auto refused = BuildTable(it.arm, it.spec, {}, {});
+  EXPECT_EQ(refused.status().code(), absl::StatusCode::kFailedPrecondition);
+  const auto faults = FaultsOf(refused.status());
+  ASSERT_EQ(faults.size(), 1u) << refused.status();
+  EXPECT_EQ(faults[0].field, "verification_points");
+  int corrected = 0, drawn = 0;
+  ASSERT_EQ(std::sscanf(faults[0].found.c_str(), "%d of %d drawn", &corrected, &drawn), 2);
+  EXPECT_GT(corrected, 0);
+  EXPECT_LT(corrected, it.spec.verification_points);
+  EXPECT_EQ(drawn, 20 * it.spec.verification_points);
+  EXPECT_NE(faults[0].found.find("% are refused near a singularity"), std::string::npos);
+}
+
+// Of a box with one orientation the fifth joint hardly turns. Would catch it folded for that, and
+// its range widened to where the correction does depend on it.
+TEST(BuildTable, FoldsOnlyWhatDoesNotMatterInTheWholeRange) {
+  const Arm arm = testing::DrawnArm(testing::Ur10(), 1);
+  TableSpec spec;
+  spec.position_tolerance_m = 2e-3;
+  spec.rotation_tolerance_rad = 8.7e-3;
+  spec.box.emplace();
+  spec.box->box_B = {Eigen::Vector3d(-0.75, -0.35, 0.1), Eigen::Vector3d(-0.65, -0.25, 0.15)};
+  spec.box->reference = Values({0, -1.2, 1.5, -1.87, -1.57, 0});
+  const auto plan = PlanTable(arm, spec);
+  ASSERT_TRUE(plan.ok()) << plan.status();
+  const std::vector<bool> whole = FoldedAxes(arm, plan->domain, plan->units, 77);
+  for (size_t k = 0; k < whole.size(); ++k) {
+    EXPECT_TRUE(whole[k] || !plan->folded[k]) << k;
+  }
+  EXPECT_TRUE(plan->folded[0]);
+  EXPECT_FALSE(plan->folded[4]);
+  EXPECT_LT(plan->domain.range[4].width(), 1) << "not what a folded one is given";
+}
+
+// A planar arm's exact correction is refused where height costs radians. Would catch points dropped
+// there that the table, of an arm without errors, calls ok: nobody would hear how far off they are.
+TEST(TableError, CountsWhatOnlyTheTableCallsOk) {
+  const Arm truth = testing::DrawnArm(
+      testing::DhRobot({{0, 0, .4, 0}, {0, 0, .4, 0}, {0, 0, .3, 0}}, "RRR"), 1, 3e-3, 3e-3);
+  Arm perfect = truth;
+  perfect.identified = perfect.nominal;
+  const BuiltTable built = MustBuild(perfect, Around(Values({0, 1.2, 1}), Values({1, .5, .5})));
+  const compensation::Table table = compensation::MakeTable(built.content);
+  const TableDomain domain = DomainOfTable(table);
+  Random random(4);
+  int refused = 0;
+  for (int i = 0; i < 200; ++i) {
+    const JointVector q = domain.axes.ToController(DrawIn(domain, &random));
+    const bool is_refused =
+        compensation::CorrectJoints(truth, q.data(), {}).outcome != Outcome::kOk;
+    const TablePoint point = TableErrorAt(table, truth, q.data());
+    EXPECT_EQ(point.outcome, Outcome::kOk);
+    EXPECT_TRUE(point.error.position_m > 0 || !is_refused);
+    refused += is_refused;
+  }
+  EXPECT_GT(refused, 20);
 }
 
 // Would catch work that goes on after nobody wants it, and progress that runs backwards.
