@@ -43,6 +43,7 @@ std::vector<std::string> RobotNames(const AgentConfig& config) {
 }
 
 void LogLine(const std::string& line) { LogInfo(line); }
+void WarnLine(const std::string& line) { LogWarning(line); }
 
 void AddReleased(const ReleasedState& state, RobotStatus* status) {
   status->released_problem = state.problem;
@@ -176,7 +177,7 @@ void Agent::KeepReleasedSets() {
         ReleasedKeeperOptions{
             .robot = robot,
             .folder = absl::StrCat(config_.spool, "/released/", robot.substr(robot.find('/') + 1))},
-        LogLine));
+        LogLine, WarnLine));
 }
 
 ReleasedKeeper* Agent::KeeperOf(const std::string& robot) const {
@@ -282,7 +283,7 @@ v1::AgentReport Agent::ReportOf(const RobotStatus& robot, const AgentStatus& sta
   report.set_controller_state(robot.controller_state);
   if (!robot.released_problem.empty())
     report.set_message(absl::StrCat("released set: ", robot.released_problem));
-  report.set_message(robot.fault);
+  if (!robot.fault.empty()) report.set_message(robot.fault);
   for (const SessionProgress& session : status.sessions)
     if (!session.refusal.empty() && session.robot == robot.robot)
       report.set_message(absl::StrCat(session.session, ": ", session.refusal));

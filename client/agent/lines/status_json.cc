@@ -86,8 +86,8 @@ std::string MetricsText(const AgentStatus& status) {
       static_cast<int64_t>(status.sessions.size()));
   add("refused_sessions", "gauge", "Sessions that the server refuses.", refused);
   add("released_sets", "gauge", "Robots with a released set.", released);
-  add("released_problems", "gauge", "Robots whose released set was refused or is damaged.",
-      problems);
+  add("released_problems", "gauge",
+      "Robots whose released set was refused, is damaged or could not be made.", problems);
   add("readings_taken_total", "counter", "Readings taken since the start.", status.taken_readings);
   add("readings_delivered_total", "counter", "Readings acknowledged since the start.",
       status.delivered_readings);

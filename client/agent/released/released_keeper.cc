@@ -12,17 +12,25 @@ namespace {
 // Of a download that broke; it goes on where it stopped, and the end of the thread waits for it.
 constexpr std::chrono::milliseconds kPatience{5'000};
 
+using Log = std::function<void(const std::string&)>;
+
+Log Naming(const std::string& robot, Log log) {
+  if (log == nullptr) return nullptr;
+  return [robot, log = std::move(log)](const std::string& line) {
+    log(absl::StrCat(robot, ": ", line));
+  };
+}
+
 }  // namespace
 
 ReleasedKeeper::ReleasedKeeper(const client::Client& client, Disk& disk,
                                ReleasedKeeperOptions options,
-                               std::function<void(const std::string&)> log)
+                               std::function<void(const std::string&)> log,
+                               std::function<void(const std::string&)> warn)
     : client_(client),
       options_(std::move(options)),
       store_(ReleasedCache(options_.folder, options_.robot, disk),
-             [log = std::move(log), robot = options_.robot](const std::string& line) {
-               log(absl::StrCat(robot, ": ", line));
-             }) {
+             Naming(options_.robot, std::move(log)), Naming(options_.robot, std::move(warn))) {
   thread_ = std::thread([this] { RunThread(); });
 }
 
@@ -45,7 +53,11 @@ bool ReleasedKeeper::Take(const v1::WatchResponse& response) {
   if (!view_.Take(response)) return !stop_.requested();
   const auto released = view_.Released();
   if (released.has_value()) return Offer(*released) && !stop_.requested();
-  store_.SetWaiting(view_.WhyNone());
+  if (view_.HasFailed()) {
+    store_.SetProblem(view_.WhyNone());
+  } else {
+    store_.SetWaiting(view_.WhyNone());
+  }
   return !stop_.requested();
 }
 

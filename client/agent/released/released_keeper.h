@@ -25,8 +25,10 @@ class ReleasedKeeper {
  public:
   // Reads the cache, then watches, whether a server is there or not.
   // @param log gets what a person should know, a line each that names the robot, from the thread.
+  // @param warn the same of what is wrong; null: `log` gets that as well.
   ReleasedKeeper(const client::Client& client, Disk& disk, ReleasedKeeperOptions options,
-                 std::function<void(const std::string&)> log);
+                 std::function<void(const std::string&)> log,
+                 std::function<void(const std::string&)> warn = nullptr);
   // Waits for the call that is under way.
   ~ReleasedKeeper();
   ReleasedKeeper(const ReleasedKeeper&) = delete;

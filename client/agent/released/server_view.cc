@@ -49,18 +49,27 @@ std::optional<ReleasedEntry> ServerView::Released() const {
   return entry;
 }
 
+const v1::CompensationTable* ServerView::TableOfActive() const {
+  const v1::CompensationTable* last = nullptr;
+  for (const auto& [name, table] : tables_) {
+    const bool better = last == nullptr || last->state() == v1::TABLE_FAILED;
+    if (better && table.calibration() == robot_.active_calibration()) last = &table;
+  }
+  return last;
+}
+
+bool ServerView::HasFailed() const {
+  const v1::CompensationTable* const table = TableOfActive();
+  return !active_calibration().empty() && table != nullptr && table->state() == v1::TABLE_FAILED;
+}
+
 std::string ServerView::WhyNone() const {
   const std::string& active = robot_.active_calibration();
   if (active.empty()) return "the server has no active calibration of it";
-  std::string why = absl::StrCat("no table of ", ShortName(active), " was asked for");
-  for (const auto& [name, table] : tables_) {
-    if (table.calibration() != active) continue;
-    why =
-        table.state() == v1::TABLE_FAILED
-            ? absl::StrCat("the table of ", ShortName(active), " FAILED: ", table.error().message())
-            : absl::StrCat("the table of ", ShortName(active), " is not READY yet");
-  }
-  return why;
+  const v1::CompensationTable* const table = TableOfActive();
+  if (table == nullptr) return absl::StrCat("no table of ", ShortName(active), " was asked for");
+  if (!HasFailed()) return absl::StrCat("the table of ", ShortName(active), " is not READY yet");
+  return absl::StrCat("the table of ", ShortName(active), " FAILED: ", table->error().message());
 }
 
 }  // namespace truepose::agent

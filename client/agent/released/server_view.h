@@ -25,9 +25,13 @@ class ServerView {
   std::optional<ReleasedEntry> Released() const;
   // Why there is none, in words for a person.
   std::string WhyNone() const;
+  // It is a fault: the table of the active calibration could not be made.
+  bool HasFailed() const;
   const std::string& active_calibration() const { return robot_.active_calibration(); }
 
  private:
+  // One that has not FAILED if there is one; null: none at all.
+  const v1::CompensationTable* TableOfActive() const;
   // When a calibration was made active last, and by which commit.
   struct Activation {
     int64_t time_us = 0, revision = 0;

@@ -97,6 +97,26 @@ TEST_F(ReleasedAgentTest, CorrectsReadsBackAndReports) {
   EXPECT_EQ(Ask({{"op", "status"}}).at("robots")[0].at("released"), "robots/arm/calibrations/2");
 }
 
+// Would catch a robot that runs an older table, or none, since the server could not make the one of
+// its active calibration, and nobody hears of it: not the status, the figures or the server.
+TEST_F(ReleasedAgentTest, ATableThatFailedIsAProblem) {
+  runner_.build_table = [](const v1::CompensationTableInput&,
+                           const jobs::RunnerHooks&) -> absl::StatusOr<jobs::BuiltTable> {
+    return absl::InternalError("no such table");
+  };
+  Restart();
+  StartAgent();
+  Activate(1);
+  const auto problem = [&] {
+    return Ask({{"op", "status"}}).at("robots")[0].value("released_problem", "");
+  };
+  ASSERT_TRUE(WaitUntil([&] { return !problem().empty(); }));
+  EXPECT_THAT(problem(), ::testing::HasSubstr("calibrations/1 FAILED"));
+  EXPECT_TRUE(WaitUntil([&] { return Report().message() == "released set: " + problem(); }))
+      << Report().message();
+  EXPECT_EQ(agent_->Status().robots[0].released_problem, problem());
+}
+
 // Would catch an agent whose controller stands still because the server does.
 TEST_F(ReleasedAgentTest, CorrectsWithoutAServer) {
   StartAgent();

@@ -98,7 +98,9 @@ TEST_F(FolderSourceTest, RowsAddedLaterAreReported) {
   ASSERT_TRUE(HasSealed(1));
   const std::string before = faults_.Text();
   Put("a.csv", text + "3,0,1\n4,0,1\n");
-  while (faults_.Text() == before) std::this_thread::yield();
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  while (faults_.Text() == before && std::chrono::steady_clock::now() < end)
+    std::this_thread::yield();
   StopSource();
   EXPECT_THAT(faults_.Text().substr(before.size()),
               HasSubstr("a.csv:5: found a row more than the 2 readings"));
