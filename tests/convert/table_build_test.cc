@@ -86,8 +86,8 @@ TEST(TableBuild, AccuracyHasTheTablesOwnErrorInIt) {
   const auto fine = RunTableBuild(TableInput());
   const auto rough = RunTableBuild(coarse);
   ASSERT_TRUE(fine.ok() && rough.ok()) << rough.status();
-  const double larger = rough->header.verified().position_95_m() -
-                        fine->header.verified().position_95_m();
+  const double larger =
+      rough->header.verified().position_95_m() - fine->header.verified().position_95_m();
   EXPECT_GT(larger, 5e-6);
   EXPECT_GE(rough->header.predicted_accuracy_95_m() - fine->header.predicted_accuracy_95_m(),
             larger * (1 - 1e-9));
