@@ -14,8 +14,12 @@ struct CalibratedArm {
   compensation::Arm arm;
 };
 
+// What its own report says must not be applied reaches no robot, neither by targets nor in a table.
+// @returns kFailedPrecondition with a fault of `calibration.report.verdict`, with all its reasons.
+absl::Status CheckMayBeApplied(const v1::CalibrationReport& report);
+
 // @returns the errors of RobotFrom, CalibratedModelFrom, CheckTorquesOfTargets and ArmFrom;
-//   kFailedPrecondition with a fault of `calibration.report.verdict` for do_not_apply.
+//   CheckMayBeApplied.
 absl::StatusOr<CalibratedArm> CalibratedArmFrom(const v1::Nominal& nominal,
                                                 const v1::Calibration& calibration);
 

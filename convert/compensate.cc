@@ -1,15 +1,13 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "compensation/inverse.h"
-#include "convert/calibrated_model.h"
+#include "convert/arm.h"
 #include "convert/frames.h"
 #include "convert/report.h"
 #include "convert/robot.h"
 #include "convert/run.h"
-#include "convert/torques.h"
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
-#include "core/compensation/arm_from.h"
 
 namespace truepose::convert {
 namespace {
@@ -161,19 +159,6 @@ class Compensator {
   ExactOptions options_;
 };
 
-// What its own report says must not be applied does not reach a robot by this way either.
-absl::Status CheckVerdict(const v1::Calibration& calibration) {
-  const v1::CalibrationReport& report = calibration.report();
-  if (report.verdict() != "do_not_apply") return absl::OkStatus();
-  const std::string reason = report.verdict_reasons().empty()
-                                 ? ""
-                                 : absl::StrCat(" (", *report.verdict_reasons().rbegin(), ")");
-  FaultList faults;
-  faults.Add("calibration.report.verdict", absl::StrCat("do_not_apply", reason),
-             "a calibration that may be applied");
-  return faults.ToStatus(absl::StatusCode::kFailedPrecondition);
-}
-
 absl::StatusOr<Pose> ToolOf(const v1::Nominal& nominal, const std::string& name) {
   if (name.empty()) return Pose{};
   return ToolByName(nominal, name, "tool");
@@ -185,16 +170,11 @@ absl::StatusOr<v1::CompensateResponse> RunCompensation(const v1::Nominal& nomina
                                                        const v1::Calibration& calibration,
                                                        const v1::CompensateRequest& request) {
   TRUEPOSE_ASSIGN_OR_RETURN(const Robot robot, RobotFrom(nominal));
-  TRUEPOSE_ASSIGN_OR_RETURN(const CalibratedModel calibrated,
-                            CalibratedModelFrom(robot, calibration));
-  TRUEPOSE_RETURN_IF_ERROR(CheckVerdict(calibration));
-  TRUEPOSE_RETURN_IF_ERROR(CheckTorquesOfTargets(calibrated));
+  TRUEPOSE_ASSIGN_OR_RETURN(const CalibratedArm calibrated,
+                            CalibratedArmFrom(nominal, calibration));
   TRUEPOSE_RETURN_IF_ERROR(CheckTargets(request, robot.joint_count()));
   TRUEPOSE_ASSIGN_OR_RETURN(const Pose X_FT, ToolOf(nominal, request.tool()));
-  TRUEPOSE_ASSIGN_OR_RETURN(compensation::Arm arm,
-                            ArmFrom(robot, calibrated.model, calibrated.lambda));
-  arm.measuring = nominal.kind() == v1::MEASURING;
-  const Compensator compensator(robot, arm, X_FT);
+  const Compensator compensator(robot, calibrated.arm, X_FT);
   v1::CompensateResponse response;
   for (const v1::CompensationTarget& target : request.targets())
     *response.add_targets() = compensator.Run(target);
