@@ -1,51 +1,13 @@
 #include "convert/frames.h"
 
-#include <cmath>
-
-#include "absl/strings/str_cat.h"
-
 namespace truepose::convert {
 namespace {
-
-void CheckUnit(const Eigen::Vector4d& q, const std::string& field, FaultList* faults) {
-  if (!q.allFinite()) {
-    faults->Add(field, "a value that is not finite", "finite numbers");
-  } else if (std::abs(q.norm() - 1) > kUnitTolerance) {
-    faults->Add(field, absl::StrCat("a quaternion of length ", q.norm()), "a unit quaternion");
-  }
-}
 
 Eigen::Matrix3d RotationFrom(double x, double y, double z, double w) {
   return RotationOf<double>(Eigen::Vector4d(x, y, z, w).normalized());
 }
 
 }  // namespace
-
-void CheckFinite(double value, const std::string& field, FaultList* faults) {
-  if (!std::isfinite(value)) faults->Add(field, absl::StrCat(value), "a finite number");
-}
-
-void CheckSize(double value, double largest, const std::string& field, FaultList* faults) {
-  if (std::abs(value) <= largest) return;
-  faults->Add(field, absl::StrCat(value), absl::StrCat("a finite number of at most ", largest));
-}
-
-void CheckVector(const v1::Vector3& vector, const std::string& field, FaultList* faults) {
-  CheckSize(vector.x(), kLargestLength_m, field + ".x", faults);
-  CheckSize(vector.y(), kLargestLength_m, field + ".y", faults);
-  CheckSize(vector.z(), kLargestLength_m, field + ".z", faults);
-}
-
-void CheckQuaternion(const v1::Quaternion& q, const std::string& field, FaultList* faults) {
-  CheckUnit({q.x(), q.y(), q.z(), q.w()}, field, faults);
-}
-
-void CheckPose(const v1::Pose& pose, const std::string& field, FaultList* faults) {
-  CheckSize(pose.x_m(), kLargestLength_m, field + ".x_m", faults);
-  CheckSize(pose.y_m(), kLargestLength_m, field + ".y_m", faults);
-  CheckSize(pose.z_m(), kLargestLength_m, field + ".z_m", faults);
-  CheckUnit({pose.qx(), pose.qy(), pose.qz(), pose.qw()}, field, faults);
-}
 
 Pose PoseFrom(const v1::Pose& pose) {
   return {RotationFrom(pose.qx(), pose.qy(), pose.qz(), pose.qw()),

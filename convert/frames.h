@@ -4,28 +4,12 @@
 #include <string>
 
 #include "absl/status/statusor.h"
-#include "core/base/fault.h"
+#include "convert/rules/values.h"
 #include "core/geometry/pose.h"
 #include "truepose/v1/robot.pb.h"
 #include "truepose/v1/session.pb.h"
 
 namespace truepose::convert {
-
-// A quaternion or axis may differ from unit length by this; files round to 9 digits, some to 6.
-inline constexpr double kUnitTolerance = 1e-6;
-
-// Adds faults below `field` for values that are not finite or a quaternion that is not a unit one.
-void CheckPose(const v1::Pose& pose, const std::string& field, FaultList* faults);
-void CheckVector(const v1::Vector3& vector, const std::string& field, FaultList* faults);
-void CheckQuaternion(const v1::Quaternion& quaternion, const std::string& field, FaultList* faults);
-void CheckFinite(double value, const std::string& field, FaultList* faults);
-
-// Sizes beyond which a reading is no measurement but a slip of units or columns. Far above any
-// instrument (a tracker sees 160 m) and any encoder, and small enough that squares stay finite.
-inline constexpr double kLargestLength_m = 1e4;
-inline constexpr double kLargestJoint = 1e6;  // rad or m
-// A fault for a value that is not finite or larger than `largest`.
-void CheckSize(double value, double largest, const std::string& field, FaultList* faults);
 
 Pose PoseFrom(const v1::Pose& pose);
 v1::Pose ToProto(const Pose& pose);

@@ -139,6 +139,16 @@ absl::Status CheckBelongsTogether(const v1::Calibration& calibration, const v1::
                      "unchanged");
 }
 
+absl::StatusOr<LocalCalibration> LoadLocalCalibration(const std::string& robot_path,
+                                                      const formats::UrdfEnds& ends,
+                                                      const std::string& calibration_path) {
+  if (robot_path.empty()) return UsageError("--local needs --robot FILE");
+  TRUEPOSE_ASSIGN_OR_RETURN(formats::RobotFile robot, LoadRobot(robot_path, ends));
+  TRUEPOSE_ASSIGN_OR_RETURN(v1::Calibration calibration, LoadCalibration(calibration_path));
+  TRUEPOSE_RETURN_IF_ERROR(CheckBelongsTogether(calibration, robot.nominal, robot_path));
+  return LocalCalibration{std::move(robot), std::move(calibration)};
+}
+
 absl::Status CheckPrior(const v1::Calibration& calibration, const v1::Nominal& nominal) {
   const std::string why = WhyForeign(calibration, nominal);
   if (why.empty()) return absl::OkStatus();

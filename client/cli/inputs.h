@@ -55,7 +55,19 @@ std::string LocalRevision(const v1::Nominal& nominal);
 absl::Status CheckBelongsTogether(const v1::Calibration& calibration, const v1::Nominal& nominal,
                                   const std::string& robot_path);
 
-// The same of a calibration that is to be the prior of another one, as a fault of `--prior`.
+// What --robot and --calibration name of a command that works without a server.
+struct LocalCalibration {
+  formats::RobotFile robot;
+  v1::Calibration calibration;
+};
+
+// @returns a UsageError without a robot file; faults of either file; those of CheckBelongsTogether.
+absl::StatusOr<LocalCalibration> LoadLocalCalibration(const std::string& robot_path,
+                                                      const formats::UrdfEnds& ends,
+                                                      const std::string& calibration_path);
+
+// CheckBelongsTogether of a calibration that is to be the prior of another one, as a fault of
+// `--prior`.
 absl::Status CheckPrior(const v1::Calibration& calibration, const v1::Nominal& nominal);
 
 }  // namespace truepose::cli

@@ -35,6 +35,8 @@ ALLOWED = {
     "formats": ("core/base", "proto", "yaml", "json", "urdf", "io"),
     "programs": ("core/base", "formats"),
     "convert": ("core", "compensation", "proto", "openssl", "io"),
+    # Messages alone: what the agent has of it.
+    "convert/rules": ("core/base", "proto"),
     "server/store": ("core/base", "proto", "sqlite", "openssl", "io"),
     "server/jobs": ("core/base", "convert", "server/store", "proto", "io", "spdlog"),
     "server/auth": ("core/base", "server/store", "proto", "io"),
@@ -49,7 +51,7 @@ ALLOWED = {
     "client/cli": (
         "core", "compensation", "formats", "programs", "convert", "client", "proto", "grpc", "io", "cli11", "json",
         "openssl"),
-    "client/agent": ("core/base", "compensation", "client", "proto", "io", "cli11", "json", "spdlog", "toml"),
+    "client/agent": ("core/base", "convert/rules", "compensation", "client", "proto", "io", "cli11", "json", "spdlog", "toml"),
     # core/geometry: the header-only part alone.
     "client/agent/released": ("core/base", "core/geometry", "compensation", "client", "client/agent", "proto", "io", "json"),
     "client/agent/sources": ("core/base", "formats", "client/agent", "proto", "io", "json"),

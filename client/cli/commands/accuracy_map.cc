@@ -120,12 +120,10 @@ absl::Status Deliver(const Invocation& invocation, const Options& options, const
 }
 
 absl::Status MapLocally(const Invocation& invocation, const Options& options) {
-  if (options.robot.empty()) return UsageError("--local needs --robot FILE");
-  TRUEPOSE_ASSIGN_OR_RETURN(const formats::RobotFile robot, LoadRobot(options.robot, options.ends));
-  TRUEPOSE_ASSIGN_OR_RETURN(const v1::Calibration calibration,
-                            LoadCalibration(options.calibration));
-  TRUEPOSE_RETURN_IF_ERROR(CheckBelongsTogether(calibration, robot.nominal, options.robot));
-  return Deliver(invocation, options, RobotName(robot.robot_id), robot.nominal, calibration);
+  TRUEPOSE_ASSIGN_OR_RETURN(const LocalCalibration local,
+                            LoadLocalCalibration(options.robot, options.ends, options.calibration));
+  return Deliver(invocation, options, RobotName(local.robot.robot_id), local.robot.nominal,
+                 local.calibration);
 }
 
 absl::Status MapFromServer(const Invocation& invocation, const Options& options) {

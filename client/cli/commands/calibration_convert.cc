@@ -56,11 +56,9 @@ absl::Status ConvertAndReply(const Invocation& invocation, const Options& option
 
 absl::Status ConvertFile(const Invocation& invocation, const Options& options) {
   if (options.robot.empty()) return UsageError("a calibration in a file needs --robot FILE");
-  TRUEPOSE_ASSIGN_OR_RETURN(const formats::RobotFile robot, LoadRobot(options.robot, options.ends));
-  TRUEPOSE_ASSIGN_OR_RETURN(const v1::Calibration calibration,
-                            LoadCalibration(options.calibration));
-  TRUEPOSE_RETURN_IF_ERROR(CheckBelongsTogether(calibration, robot.nominal, options.robot));
-  return ConvertAndReply(invocation, options, robot.nominal, calibration);
+  TRUEPOSE_ASSIGN_OR_RETURN(const LocalCalibration local,
+                            LoadLocalCalibration(options.robot, options.ends, options.calibration));
+  return ConvertAndReply(invocation, options, local.robot.nominal, local.calibration);
 }
 
 absl::Status ConvertStored(const Invocation& invocation, const Options& options) {

@@ -20,12 +20,9 @@ struct Options {
 };
 
 absl::Status ExportLocally(const Invocation& invocation, const Options& options) {
-  if (options.robot.empty()) return UsageError("--local needs --robot FILE");
-  TRUEPOSE_ASSIGN_OR_RETURN(const formats::RobotFile robot, LoadRobot(options.robot, options.ends));
-  TRUEPOSE_ASSIGN_OR_RETURN(const v1::Calibration calibration,
-                            LoadCalibration(options.calibration));
-  TRUEPOSE_RETURN_IF_ERROR(CheckBelongsTogether(calibration, robot.nominal, options.robot));
-  return Export(invocation, options.exported, robot, &calibration);
+  TRUEPOSE_ASSIGN_OR_RETURN(const LocalCalibration local,
+                            LoadLocalCalibration(options.robot, options.ends, options.calibration));
+  return Export(invocation, options.exported, local.robot, &local.calibration);
 }
 
 absl::Status ExportFromServer(const Invocation& invocation, const Options& options) {

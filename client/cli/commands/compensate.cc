@@ -143,18 +143,16 @@ absl::StatusOr<std::optional<OutputFile>> OpenOutput(const std::string& path) {
 }
 
 absl::Status CompensateLocally(const Invocation& invocation, const Options& options) {
-  if (options.robot.empty()) return UsageError("--local needs --robot FILE");
-  TRUEPOSE_ASSIGN_OR_RETURN(const formats::RobotFile robot, LoadRobot(options.robot, options.ends));
-  TRUEPOSE_ASSIGN_OR_RETURN(const v1::Calibration calibration,
-                            LoadCalibration(options.calibration));
-  TRUEPOSE_RETURN_IF_ERROR(CheckBelongsTogether(calibration, robot.nominal, options.robot));
+  TRUEPOSE_ASSIGN_OR_RETURN(const LocalCalibration local,
+                            LoadLocalCalibration(options.robot, options.ends, options.calibration));
   TRUEPOSE_ASSIGN_OR_RETURN(const v1::CompensateRequest request,
-                            LoadRequest(options, robot.nominal));
+                            LoadRequest(options, local.robot.nominal));
   TRUEPOSE_ASSIGN_OR_RETURN(std::optional<OutputFile> output, OpenOutput(options.output));
-  TRUEPOSE_ASSIGN_OR_RETURN(const v1::CompensateResponse response,
-                            convert::RunCompensation(robot.nominal, calibration, request));
-  WarnOfVerdict(invocation.console, calibration.report());
-  return Deliver(invocation, options, robot.nominal, request, response, std::move(output));
+  TRUEPOSE_ASSIGN_OR_RETURN(
+      const v1::CompensateResponse response,
+      convert::RunCompensation(local.robot.nominal, local.calibration, request));
+  WarnOfVerdict(invocation.console, local.calibration.report());
+  return Deliver(invocation, options, local.robot.nominal, request, response, std::move(output));
 }
 
 absl::Status CompensateOnServer(const Invocation& invocation, const Options& options) {

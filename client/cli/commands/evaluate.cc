@@ -71,19 +71,18 @@ absl::Status SetFixture(const Options& options, v1::Calibration* calibration) {
 
 absl::Status EvaluateLocally(const Invocation& invocation, const Options& options,
                              v1::Observe observe) {
-  if (options.robot.empty()) return UsageError("--local needs --robot FILE");
-  TRUEPOSE_ASSIGN_OR_RETURN(const formats::RobotFile robot, LoadRobot(options.robot, options.ends));
-  TRUEPOSE_ASSIGN_OR_RETURN(v1::Calibration calibration, LoadCalibration(options.calibration));
-  TRUEPOSE_RETURN_IF_ERROR(CheckBelongsTogether(calibration, robot.nominal, options.robot));
-  TRUEPOSE_RETURN_IF_ERROR(SetFixture(options, &calibration));
+  TRUEPOSE_ASSIGN_OR_RETURN(LocalCalibration local,
+                            LoadLocalCalibration(options.robot, options.ends, options.calibration));
+  TRUEPOSE_RETURN_IF_ERROR(SetFixture(options, &local.calibration));
   TRUEPOSE_ASSIGN_OR_RETURN(
       const std::vector<v1::SessionInput> sessions,
-      LoadSessions({options.session}, robot.nominal,
-                   {options.euler, {calibration.options().feature_column()}}, invocation.console));
+      LoadSessions({options.session}, local.robot.nominal,
+                   {options.euler, {local.calibration.options().feature_column()}},
+                   invocation.console));
   TRUEPOSE_ASSIGN_OR_RETURN(
       v1::Evaluation evaluation,
-      convert::RunEvaluation(robot.nominal, calibration, sessions[0], observe));
-  WarnOfOwnSession(calibration, options.session, &evaluation);
+      convert::RunEvaluation(local.robot.nominal, local.calibration, sessions[0], observe));
+  WarnOfOwnSession(local.calibration, options.session, &evaluation);
   return Deliver(invocation, evaluation);
 }
 

@@ -88,13 +88,11 @@ absl::Status CorrectFile(const Invocation& invocation, const Options& options,
 absl::Status CorrectLocally(const Invocation& invocation, const Options& options) {
   if (options.robot.empty()) return UsageError("--local needs --robot FILE");
   TRUEPOSE_ASSIGN_OR_RETURN(const ProgramFiles files, LoadProgram(options));
-  TRUEPOSE_ASSIGN_OR_RETURN(const formats::RobotFile robot, LoadRobot(options.robot, options.ends));
-  TRUEPOSE_ASSIGN_OR_RETURN(const v1::Calibration calibration,
-                            LoadCalibration(options.calibration));
-  TRUEPOSE_RETURN_IF_ERROR(CheckBelongsTogether(calibration, robot.nominal, options.robot));
+  TRUEPOSE_ASSIGN_OR_RETURN(const LocalCalibration local,
+                            LoadLocalCalibration(options.robot, options.ends, options.calibration));
   TRUEPOSE_ASSIGN_OR_RETURN(const ProgramCorrection correction,
-                            LocalCorrection(robot.nominal, calibration));
-  WarnOfVerdict(invocation.console, calibration.report());
+                            LocalCorrection(local.robot.nominal, local.calibration));
+  WarnOfVerdict(invocation.console, local.calibration.report());
   return CorrectFile(invocation, options, files, correction);
 }
 

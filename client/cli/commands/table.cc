@@ -79,16 +79,14 @@ absl::StatusOr<v1::CompensationTableSpec> LoadTableSpec(const TableOptions& opti
 }
 
 absl::StatusOr<v1::CompensationTableInput> LoadTableInput(const TableOptions& options) {
-  if (options.robot.empty()) return UsageError("--local needs --robot FILE");
   if (options.calibration.empty()) return UsageError("--local needs --calibration FILE");
-  TRUEPOSE_ASSIGN_OR_RETURN(const formats::RobotFile robot, LoadRobot(options.robot, options.ends));
-  TRUEPOSE_ASSIGN_OR_RETURN(v1::Calibration calibration, LoadCalibration(options.calibration));
-  TRUEPOSE_RETURN_IF_ERROR(CheckBelongsTogether(calibration, robot.nominal, options.robot));
+  TRUEPOSE_ASSIGN_OR_RETURN(LocalCalibration local,
+                            LoadLocalCalibration(options.robot, options.ends, options.calibration));
   v1::CompensationTableInput input;
   TRUEPOSE_ASSIGN_OR_RETURN(*input.mutable_spec(), LoadTableSpec(options));
-  input.set_robot(RobotName(robot.robot_id));
-  *input.mutable_nominal() = robot.nominal;
-  *input.mutable_calibration() = std::move(calibration);
+  input.set_robot(RobotName(local.robot.robot_id));
+  *input.mutable_nominal() = local.robot.nominal;
+  *input.mutable_calibration() = std::move(local.calibration);
   return input;
 }
 

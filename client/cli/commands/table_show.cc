@@ -54,12 +54,10 @@ std::string Text(const v1::TableVerification& verified, const v1::CompensationTa
 
 absl::Status Verify(const Invocation& invocation, const VerifyOptions& options) {
   TRUEPOSE_ASSIGN_OR_RETURN(const compensation::TableFile file, LoadTable(options.table));
-  TRUEPOSE_ASSIGN_OR_RETURN(const formats::RobotFile robot, LoadRobot(options.robot, options.ends));
-  TRUEPOSE_ASSIGN_OR_RETURN(const v1::Calibration calibration,
-                            LoadCalibration(options.calibration));
-  TRUEPOSE_RETURN_IF_ERROR(CheckBelongsTogether(calibration, robot.nominal, options.robot));
-  const auto verified = convert::RunTableVerification(file.table(), robot.nominal, calibration,
-                                                      {options.points, options.seed});
+  TRUEPOSE_ASSIGN_OR_RETURN(const LocalCalibration local,
+                            LoadLocalCalibration(options.robot, options.ends, options.calibration));
+  const auto verified = convert::RunTableVerification(
+      file.table(), local.robot.nominal, local.calibration, {options.points, options.seed});
   if (!verified.ok())
     return AsFaultOfInput(RenameFields(
         verified.status(),
