@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compensation/lu6.h"
+#include "compensation/inverse6.h"
 
 namespace truepose::compensation {
 namespace {
@@ -42,7 +42,7 @@ class Chords {
     RunSweep(arm_.identified, state_.motions, &sweep_);
     state_.remainder = Remainder(desired_, sweep_.X_BF);
     if (Arrived(state_.remainder, options_)) return true;
-    if (!Factor() || !Step(true)) return false;
+    if (!Invert() || !Step(true)) return false;
     for (state_.iterations = 1; state_.iterations <= kMostSteps; ++state_.iterations) {
       const double before = size_;
       state_.remainder = Remainder(desired_, Forward(arm_.identified, state_.motions));
@@ -57,25 +57,25 @@ class Chords {
  private:
   bool Refresh() {
     RunSweep(arm_.identified, state_.motions, &sweep_);
-    return Factor();
+    return Invert();
   }
 
-  bool Factor() {
+  bool Invert() {
     size_ = SizeOf(state_.remainder, options_.characteristic_length_m);
     Eigen::Matrix<double, 6, 6> J;
     for (int i = 0; i < 6; ++i) J.col(i) = ColumnOf(arm_.identified, sweep_, i);
     if (!identity_) J = (J * arm_.joint_scale.topLeftCorner<6, 6>()).eval();
-    return lu_.Factor(J);
+    return inverse_.Set(J);
   }
 
   // Of a fresh Jacobian with the curvature at its place: third order for the price of half a step.
   bool Step(bool fresh) {
     double step[6], chain_step[6];
-    lu_.Solve(state_.remainder, step);
+    inverse_.Solve(state_.remainder, step);
     ToChainStep(step, chain_step);
     if (fresh) {
       double bend[6];
-      lu_.Solve(Curvature(arm_.identified, sweep_, chain_step), bend);
+      inverse_.Solve(Curvature(arm_.identified, sweep_, chain_step), bend);
       for (int i = 0; i < 6; ++i) step[i] -= bend[i];
       ToChainStep(step, chain_step);
     }
@@ -111,7 +111,7 @@ class Chords {
   ChordState& state_;
   const bool identity_;
   Sweep sweep_;
-  Lu6 lu_;
+  Inverse6 inverse_;
   double size_ = 0;
 };
 

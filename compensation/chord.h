@@ -1,5 +1,6 @@
 // The way of almost every target of an arm with six joints: the corrected joints are milliradians
-// away, so Newton with one factored Jacobian contracts the error by about as much each step; the
+// away, so Newton with one inverted Jacobian contracts the error by about as much each step; the
+// first step takes the curvature along, which makes it of third order.
 #pragma once
 
 #include "compensation/kinematics.h"

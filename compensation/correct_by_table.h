@@ -15,9 +15,11 @@
 
 namespace truepose::compensation {
 
-// What corrections are taken to, beside the rounding of lookups to float, 4e-7 of the correction.
-inline constexpr double kTablePositionTolerance = 1e-9;  // m
-inline constexpr double kTableRotationTolerance = 1e-9;  // rad
+// What corrections are taken to, beside the rounding of lookups to float, 4e-7 of the correction: a
+// thousandth of the tolerance that the table was asked for (20 nm of 0.02 mm), and no less than
+// kLeastSolved. Verified errors of a table contain it.
+inline constexpr double kSolvedShare = 1e-3;
+inline constexpr double kLeastSolved = 1e-9;  // m, rad
 
 // Outcomes:
 //   kOk               q is corrected; position_error_m and rotation_error_rad are what is left by

@@ -4,50 +4,31 @@
 #include <cmath>
 
 #include "compensation/effects.h"
+#include "compensation/frame.h"
+#include "compensation/sines.h"
 #include "core/geometry/rotation.h"
 
 namespace truepose::compensation {
 namespace {
 
-// X's axes as separate vectors: the compiler keeps them in registers from joint to joint.
-struct Frame {
-  Eigen::Vector3d x, y, z, p;
-};
-
-Frame FrameOf(const Pose& X) { return {X.R.col(0), X.R.col(1), X.R.col(2), X.p}; }
-
-Pose PoseOf(const Frame& frame) {
-  Pose X;
-  X.R << frame.x, frame.y, frame.z;
-  X.p = frame.p;
-  return X;
-}
-
-inline void Move(bool prismatic, const JointMotion& motion, Frame* frame) {
-  if (prismatic) {
-    frame->p += frame->z * motion.cosine;
-    return;
+// Six angles at once. @returns false where one is too large for that, or no number.
+bool SetSix(const JointChain& chain, const double* q_chain, Motions* motions) {
+  bool are_small = true;
+  for (int i = 0; i < 6; ++i) are_small &= std::abs(q_chain[i]) <= kLargestAngle;
+  if (!are_small) return false;
+  double sine[6], cosine[6];
+  SinesOfSix(q_chain, sine, cosine);
+  for (int i = 0; i < 6; ++i) {
+    const bool slides = chain.prismatic[i];
+    (*motions)[i] = {slides ? q_chain[i] : cosine[i], slides ? 0 : sine[i]};
   }
-  const Eigen::Vector3d x = frame->x * motion.cosine + frame->y * motion.sine;
-  frame->y = frame->y * motion.cosine - frame->x * motion.sine;
-  frame->x = x;
-}
-
-inline Eigen::Vector3d Along(const Frame& frame, const Eigen::Vector3d& v) {
-  return frame.x * v(0) + frame.y * v(1) + frame.z * v(2);
-}
-
-inline void Append(const Pose& constant, Frame* frame) {
-  frame->p += Along(*frame, constant.p);
-  const Eigen::Vector3d x = Along(*frame, constant.R.col(0)), y = Along(*frame, constant.R.col(1));
-  frame->z = Along(*frame, constant.R.col(2));
-  frame->x = x;
-  frame->y = y;
+  return true;
 }
 
 }  // namespace
 
 void SetMotions(const JointChain& chain, const double* q_chain, Motions* motions) noexcept {
+  if (chain.joints == 6 && SetSix(chain, q_chain, motions)) return;
   for (int i = 0; i < chain.joints; ++i) {
     if (chain.prismatic[i]) {
       (*motions)[i] = {q_chain[i], 0};

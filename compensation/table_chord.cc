@@ -6,7 +6,6 @@
 #include "compensation/above.h"
 #include "compensation/correct_by_table.h"
 #include "compensation/inverse6.h"
-#include "compensation/sines.h"
 #include "compensation/table_motion.h"
 
 namespace truepose::compensation {
@@ -78,18 +77,6 @@ bool Advance(const JointChain& chain, const Newton& newton, Motions* motions, Ta
   return true;
 }
 
-// As SetMotions, of six joints.
-void SetMotionsOfSix(const JointChain& chain, const JointArray& q_chain, Motions* motions) {
-  double largest = 0, sine[6], cosine[6];
-  for (int i = 0; i < 6; ++i) largest = std::max(largest, std::abs(q_chain[i]));
-  if (!(largest <= kLargestAngle)) return SetMotions(chain, q_chain.data(), motions);
-  SinesOfSix(q_chain.data(), sine, cosine);
-  for (int i = 0; i < 6; ++i) {
-    const bool slides = chain.prismatic[i];
-    (*motions)[i] = {slides ? q_chain[i] : cosine[i], slides ? 0 : sine[i]};
-  }
-}
-
 double SizeOf(const Twist& remainder) { return remainder.cwiseAbs().maxCoeff(); }
 
 ChordEnd Iterate(const Table& table, const Newton& newton, const Pose& desired, Motions* motions,
@@ -121,8 +108,9 @@ ChordEnd Iterate(const Table& table, const Newton& newton, const Pose& desired, 
 TableTolerance::TableTolerance(const Table& table, const Delta& delta) noexcept {
   const double turn = delta.tail<3>().norm();
   const double shift = delta.head<3>().norm() + turn * table.header.characteristic_length_m;
-  position_m = kTablePositionTolerance + kRoundedShare * shift;
-  rotation_rad = kTableRotationTolerance + kRoundedShare * turn;
+  const PoseError& asked = table.header.tolerance;
+  position_m = std::max(kLeastSolved, kSolvedShare * asked.position_m) + kRoundedShare * shift;
+  rotation_rad = std::max(kLeastSolved, kSolvedShare * asked.rotation_rad) + kRoundedShare * turn;
 }
 
 bool TableTolerance::IsMet(const Twist& remainder) const noexcept {
@@ -133,7 +121,7 @@ bool TableTolerance::IsMet(const Twist& remainder) const noexcept {
 ChordEnd CorrectByChords(const Table& table, TableChord* state) noexcept {
   const JointChain& chain = table.arm.nominal;
   Motions motions;
-  SetMotionsOfSix(chain, state->q_chain, &motions);
+  SetMotions(chain, state->q_chain.data(), &motions);
   TableSweep sweep;
   SweepTable(table, motions, &sweep);
   Newton newton(chain, table.header.characteristic_length_m);

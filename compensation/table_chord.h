@@ -24,7 +24,7 @@ struct TableChord {
 // @pre table.header.joints is 6
 ChordEnd CorrectByChords(const Table& table, TableChord* state) noexcept;
 
-// What is nothing to a table: 1e-9 m and rad, and what a lookup rounds to float.
+// What is nothing to a table (correct_by_table.h), and what a lookup rounds to float.
 struct TableTolerance {
   double position_m, rotation_rad;
 

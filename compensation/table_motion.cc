@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "compensation/frame.h"
+
 namespace truepose::compensation {
 
 Pose PoseOfDelta(const Delta& delta) noexcept {
@@ -23,43 +25,23 @@ Pose PoseOfDelta(const Delta& delta) noexcept {
 
 namespace {
 
-inline void Move(bool prismatic, const JointMotion& motion, Pose* X) {
-  if (prismatic) {
-    X->p += X->R.col(2) * motion.cosine;
-    return;
-  }
-  const Eigen::Vector3d x = X->R.col(0) * motion.cosine + X->R.col(1) * motion.sine;
-  X->R.col(1) = X->R.col(1) * motion.cosine - X->R.col(0) * motion.sine;
-  X->R.col(0) = x;
-}
-
-inline Eigen::Vector3d Along(const Pose& X, const Eigen::Vector3d& v) {
-  return X.R.col(0) * v(0) + X.R.col(1) * v(1) + X.R.col(2) * v(2);
-}
-
-inline Eigen::Matrix3d Turned(const Pose& X, const Eigen::Matrix3d& R) {
-  Eigen::Matrix3d turned;
-  for (int i = 0; i < 3; ++i) turned.col(i) = Along(X, R.col(i));
-  return turned;
-}
-
-// X further by the constant i of the nominal chain.
-inline void Append(const Table& table, int i, Pose* X) {
+// Further by the constant i of the nominal chain.
+[[gnu::always_inline]] inline void Append(const Table& table, int i, Frame* frame) {
   const Pose& C = table.arm.nominal.constant[i];
-  X->p += Along(*X, C.p);
+  frame->p += Along(*frame, C.p);
   switch (table.turn[i]) {
     case Turn::kNone:
       return;
     case Turn::kQuarter:
-      X->R.col(1).swap(X->R.col(2));
-      X->R.col(2) = -X->R.col(2);
+      frame->y.swap(frame->z);
+      frame->z = -frame->z;
       return;
     case Turn::kMinusQuarter:
-      X->R.col(1).swap(X->R.col(2));
-      X->R.col(1) = -X->R.col(1);
+      frame->y.swap(frame->z);
+      frame->y = -frame->y;
       return;
     case Turn::kGeneral:
-      X->R = Turned(*X, C.R);
+      Rotate(C.R, frame);
   }
 }
 
@@ -68,28 +50,27 @@ inline void Append(const Table& table, int i, Pose* X) {
 Pose CorrectedFlange(const Table& table, const Motions& motions, const Delta& delta) noexcept {
   const JointChain& chain = table.arm.nominal;
   const int last = chain.joints - 1;
-  Pose X = chain.constant[0];
+  Frame frame = FrameOf(chain.constant[0]);
   for (int i = 0; i < last; ++i) {
-    Move(chain.prismatic[i], motions[i], &X);
-    Append(table, i + 1, &X);
+    Move(chain.prismatic[i], motions[i], &frame);
+    Append(table, i + 1, &frame);
   }
-  const Pose E = PoseOfDelta(delta);
-  X = {Turned(X, E.R), X.p + Along(X, E.p)};
-  Move(chain.prismatic[last], motions[last], &X);
-  Append(table, last + 1, &X);
-  return X;
+  Append(PoseOfDelta(delta), &frame);
+  Move(chain.prismatic[last], motions[last], &frame);
+  Append(table, last + 1, &frame);
+  return PoseOf(frame);
 }
 
 void SweepTable(const Table& table, const Motions& motions, TableSweep* sweep) noexcept {
   const JointChain& chain = table.arm.nominal;
-  Pose X = chain.constant[0];
+  Frame frame = FrameOf(chain.constant[0]);
   for (int i = 0; i < chain.joints; ++i) {
-    sweep->axis[i] = {X.R.col(2), X.p};
-    if (i + 1 == chain.joints) sweep->X_BL = X;
-    Move(chain.prismatic[i], motions[i], &X);
-    Append(table, i + 1, &X);
+    sweep->axis[i] = {frame.z, frame.p};
+    if (i + 1 == chain.joints) sweep->X_BL = PoseOf(frame);
+    Move(chain.prismatic[i], motions[i], &frame);
+    Append(table, i + 1, &frame);
   }
-  sweep->X_BF = X;
+  sweep->X_BF = PoseOf(frame);
 }
 
 void ChainJoints(const Table& table, const double* q_controller, double* q_chain) noexcept {

@@ -65,8 +65,9 @@ void ExpectCorrected(const Table& table, const JointArray& target) {
   ChainJoints(table, target.data(), q_chain.data());
   const double rounding =
       kRoundedLookup * LookUp(table, q_chain.data(), Reach::kDomain).delta.norm();
-  EXPECT_LE(correction.position_error_m, kTablePositionTolerance + rounding);
-  EXPECT_LE(correction.rotation_error_rad, kTableRotationTolerance + rounding);
+  const PoseError& asked = table.header.tolerance;
+  EXPECT_LE(correction.position_error_m, std::max(1e-9, 1e-3 * asked.position_m) + rounding);
+  EXPECT_LE(correction.rotation_error_rad, std::max(1e-9, 1e-3 * asked.rotation_rad) + rounding);
   EXPECT_LE(left.head<3>().norm(), correction.position_error_m + rounding);
   EXPECT_LE(left.tail<3>().norm(), correction.rotation_error_rad + rounding);
 }
@@ -76,6 +77,18 @@ TEST(CorrectByTable, BringsTheTablesFlangeToTheTarget) {
   const Table table = MakeTable(FineContent());
   for (int trial = 0; trial < 300; ++trial)
     ExpectCorrected(table, RandomTarget(FineContent(), &random));
+}
+
+// A table that was asked for little error is solved finer, and not finer than its numbers are.
+TEST(CorrectByTable, IsSolvedToAThousandthOfTheTolerance) {
+  Random random(24);
+  TableContent content = FineContent();
+  for (const double asked : {0.0, 1e-6, 1e-4}) {
+    content.header.tolerance = {asked, asked};
+    const Table table = MakeTable(content);
+    for (int trial = 0; trial < 100; ++trial)
+      ExpectCorrected(table, RandomTarget(content, &random));
+  }
 }
 
 // The table holds the correction of the flange in the right frame and with the right sign: the

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "compensation/effects.h"
-#include "compensation/lu6.h"
 #include "compensation/singularity.h"
 #include "tests/compensation/arms.h"
 
@@ -70,23 +69,6 @@ TEST(Kinematics, RemainderOfEveryAngle) {
     EXPECT_LT((e.tail<3>() - angle * axis).norm(), 1e-13) << angle;
     EXPECT_LT((e.head<3>() - Eigen::Vector3d(0, 0, 0.5)).norm(), 1e-15);
   }
-}
-
-TEST(Kinematics, SixBySixIsSolved) {
-  Random random(61);
-  for (int draw = 0; draw < 100; ++draw) {
-    Eigen::Matrix<double, 6, 6> A;
-    for (int j = 0; j < 6; ++j) A.col(j) = RandomVector(6, 1, &random);
-    if (draw % 2 == 0) A.diagonal().setZero();  // no pivot where one would look first
-    const Eigen::Matrix<double, 6, 1> b = RandomVector(6, 1, &random);
-    Lu6 lu;
-    ASSERT_TRUE(lu.Factor(A));
-    Eigen::Matrix<double, 6, 1> x;
-    lu.Solve(b, x.data());
-    EXPECT_LT((A * x - b).norm(), 1e-12 * (1 + x.norm()));
-  }
-  Lu6 lu;
-  EXPECT_FALSE(lu.Factor(Eigen::Matrix<double, 6, 6>::Zero()));
 }
 
 // Lengths over the characteristic length: a robot twice as large is as far from its singularities.

@@ -106,6 +106,7 @@ TableContent Ur10Content(const Arm& arm, const std::array<int, 4>& nodes) {
   }
   content.header.created_us = 1700000000000000;
   content.header.joints = 6;
+  content.header.tolerance = {2e-5, 8.7e-5};
   content.header.smallest_singular_value = 0.02;
   content.header.characteristic_length_m = 0.6;
   for (int i = 0; i < 6; ++i) content.axis[i].weight[i] = 1;
@@ -187,7 +188,6 @@ void FillNodes(TableContent* content) {
 
 TableContent SmallTable() {
   TableContent content = Ur10Content(Ur10Arm(1e-3), {2, 3, 2, 3});
-  content.header.tolerance = {2e-5, 8.7e-5};
   content.header.verification_points = 10000;
   content.header.worst = {1.5e-5, 7e-5};
   content.header.percentile_95 = {1e-5, 5e-5};
