@@ -13,6 +13,7 @@
 #include "formats/ur_calibration.h"
 #include "formats/urdf.h"
 #include "gtest/gtest.h"
+#include "tests/formats/damage.h"
 #include "tests/formats/samples.h"
 
 namespace truepose::formats {
@@ -75,54 +76,8 @@ constexpr char kUrCalibration[] =
     "  wrist_2: {x: 0, y: -0.1, z: 0, roll: 1.57, pitch: 0, yaw: 0}\n"
     "  wrist_3: {x: 0, y: 0.09, z: 0, roll: -1.57, pitch: 0, yaw: 0}\n  hash: calib_1\n";
 
-// Damages a text at one to four places: bytes changed, put in, taken out; pieces doubled, moved or
-// cut off.
-class Mutator {
- public:
-  explicit Mutator(uint64_t seed) : random_(seed) {}
-
-  std::string Damage(std::string text) {
-    const size_t places = 1 + Below(4);
-    for (size_t i = 0; i < places && !text.empty(); ++i) DamageOnce(text);
-    return text;
-  }
-
- private:
-  size_t Below(size_t n) { return random_() % n; }
-
-  // Bytes that mean something to one of the formats come more often than chance would have them.
-  char Byte() {
-    constexpr std::string_view kLikely =
-        "\",;:\n\r\t {}[]-#&*?!|>'%@`~0123456789.eE+nqxyz_\xEF\xC3\xFF";
-    return Below(4) == 0 ? static_cast<char>(Below(256)) : kLikely[Below(kLikely.size())];
-  }
-
-  void DamageOnce(std::string& text) {
-    const size_t at = Below(text.size());
-    const size_t length = 1 + Below(std::min<size_t>(text.size() - at, 20));
-    switch (Below(6)) {
-      case 0:
-        text[at] = Byte();
-        break;
-      case 1:
-        text.insert(at, 1, Byte());
-        break;
-      case 2:
-        text.erase(at, length);
-        break;
-      case 3:
-        text.insert(Below(text.size()), text.substr(at, length));
-        break;
-      case 4:
-        text.resize(at);
-        break;
-      default:
-        text.insert(at, Below(50), Byte());
-    }
-  }
-
-  std::mt19937_64 random_;
-};
+constexpr testing::DamageManner kManner{
+    .likely = "\",;:\n\r\t {}[]-#&*?!|>'%@`~0123456789.eE+nqxyz_\xEF\xC3\xFF"};
 
 // Every way a reader may end: a value, or kInvalidArgument with at least one fault whose parts are
 // text.
@@ -141,7 +96,7 @@ TEST(MutationTest, Sessions) {
   const v1::Nominal robot = RobotOf("RP");
   const SessionFileOptions options{.euler = "xyz-intrinsic"};
   ASSERT_TRUE(ParseSessionFile(kSession, "s.csv", robot, options).ok());
-  Mutator mutator(1);
+  testing::Mutator mutator(1, kManner);
   int read = 0;
   for (int i = 0; i < kCases && !HasFailure(); ++i) {
     const std::string text = mutator.Damage(kSession);
@@ -167,7 +122,7 @@ constexpr char kFurther[] =
 TEST(MutationTest, FurtherMeasurements) {
   const v1::Nominal robot = RobotOf("RP");
   ASSERT_TRUE(ParseSessionFile(kFurther, "s.csv", robot).ok());
-  Mutator mutator(6);
+  testing::Mutator mutator(6, kManner);
   int read = 0;
   for (int i = 0; i < kCases && !HasFailure(); ++i) {
     const std::string text = mutator.Damage(kFurther);
@@ -185,7 +140,7 @@ TEST(MutationTest, FurtherMeasurements) {
 
 TEST(MutationTest, Fixtures) {
   ASSERT_TRUE(ParseFixtureFile(kFixture, "f.yaml").ok());
-  Mutator mutator(7);
+  testing::Mutator mutator(7, kManner);
   int read = 0;
   for (int i = 0; i < kCases && !HasFailure(); ++i) {
     const std::string text = mutator.Damage(kFixture);
@@ -204,7 +159,7 @@ TEST(MutationTest, Fixtures) {
 TEST(MutationTest, Targets) {
   const v1::Nominal robot = RobotOf("RP");
   ASSERT_TRUE(ParseTargetsFile(kTargets, "t.csv", robot).ok());
-  Mutator mutator(2);
+  testing::Mutator mutator(2, kManner);
   int read = 0;
   for (int i = 0; i < kCases && !HasFailure(); ++i) {
     const std::string text = mutator.Damage(kTargets);
@@ -216,9 +171,9 @@ TEST(MutationTest, Targets) {
 
 void CheckRobots(const std::string& valid, uint64_t seed, int cases) {
   ASSERT_TRUE(ParseRobotFile(valid, "r.yaml").ok());
-  Mutator mutator(seed);
+  testing::Mutator mutator(seed, kManner);
   int read = 0;
-  for (int i = 0; i < cases && !testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < cases && !::testing::Test::HasFailure(); ++i) {
     const std::string text = mutator.Damage(valid);
     const auto result = ParseRobotFile(text, "r.yaml");
     if (!IsValueOrFaults(result, text)) continue;
@@ -237,7 +192,7 @@ TEST(MutationTest, DhTables) { CheckRobots(kDh, 4, kCases); }
 // What is read is a chain of finite numbers: also catches an end of the process in the XML library.
 TEST(MutationTest, Urdf) {
   ASSERT_TRUE(ParseUrdf(kUrdf, "r.urdf", {}).ok());
-  Mutator mutator(6);
+  testing::Mutator mutator(6, kManner);
   int read = 0;
   for (int i = 0; i < kCases && !HasFailure(); ++i) {
     const std::string text = mutator.Damage(kUrdf);
@@ -253,7 +208,7 @@ TEST(MutationTest, Urdf) {
 
 TEST(MutationTest, UrCalibrations) {
   ASSERT_TRUE(ParseUrCalibration(kUrCalibration, "ur.yaml").ok());
-  Mutator mutator(7);
+  testing::Mutator mutator(7, kManner);
   int read = 0;
   for (int i = 0; i < kCases && !HasFailure(); ++i) {
     const std::string text = mutator.Damage(kUrCalibration);

@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <random>
 
 #include "programs/correct.h"
 #include "programs/dialect.h"
+#include "tests/formats/damage.h"
 #include "tests/programs/samples.h"
 
 namespace truepose::programs {
@@ -15,51 +15,10 @@ namespace {
 
 constexpr int kCases = 4000;
 
-class Mutator {
- public:
-  explicit Mutator(uint64_t seed) : random_(seed) {}
-
-  std::string Damage(std::string text) {
-    const size_t places = 1 + Below(6);
-    for (size_t i = 0; i < places && !text.empty(); ++i) DamageOnce(text);
-    return text;
-  }
-
- private:
-  size_t Below(size_t n) { return random_() % n; }
-
-  // Bytes that mean something to a dialect come more often than chance would have them.
-  char Byte() {
-    constexpr std::string_view kLikely = "\"'[](){}:=,;.!#&\\\n\r\t -+0123456789eEaApP$_\xFC";
-    return Below(5) == 0 ? static_cast<char>(1 + Below(255)) : kLikely[Below(kLikely.size())];
-  }
-
-  void DamageOnce(std::string& text) {
-    const size_t at = Below(text.size());
-    const size_t length = 1 + Below(std::min<size_t>(text.size() - at, 60));
-    switch (Below(6)) {
-      case 0:
-        text[at] = Byte();
-        break;
-      case 1:
-        text.insert(at, 1, Byte());
-        break;
-      case 2:
-        text.erase(at, length);
-        break;
-      case 3:
-        text.insert(Below(text.size()), text.substr(at, length));
-        break;
-      case 4:
-        text.resize(at);
-        break;
-      default:
-        text.insert(at, Below(50), Byte());
-    }
-  }
-
-  std::mt19937_64 random_;
-};
+constexpr testing::DamageManner kManner{
+    .likely = "\"'[](){}:=,;.!#&\\\n\r\t -+0123456789eEaApP$_\xFC",
+    .most_places = 6,
+    .longest = 60};
 
 // The text with every joint number that was replaced taken out.
 std::string Rest(const std::string& text, const Program& program,
@@ -82,10 +41,11 @@ class MutationTest : public ::testing::TestWithParam<const char*> {};
 TEST_P(MutationTest, DamagedProgramsKeepTheirBytes) {
   const std::string name = GetParam(), whole = Golden(name);
   const Dialect dialect = *DialectOfFile(name);
-  Mutator mutator(7);
+  testing::Mutator mutator(7, kManner);
   int corrected_programs = 0;
   for (int i = 0; i < kCases && !HasFailure(); ++i) {
-    const std::string text = mutator.Damage(whole);
+    std::string text = mutator.Damage(whole);
+    std::replace(text.begin(), text.end(), '\0', ' ');  // a program with a NUL is refused whole
     const auto corrected =
         CorrectProgram(text, name, dialect, kSixRevolute, Shifted, {.keep_uncorrected = true});
     ASSERT_TRUE(corrected.ok()) << corrected.status() << "\n" << text;
