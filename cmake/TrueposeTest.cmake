@@ -18,6 +18,7 @@ function(truepose_test name)
   target_link_libraries(${name} PRIVATE truepose_options ${ARG_LINKS} GTest::gmock GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE
     TRUEPOSE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" TRUEPOSE_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  truepose_precompile_by_folder(${name} _tests)
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_PREFIX "${name}." PROPERTIES
     LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT "TRUEPOSE_SHARED=${TRUEPOSE_SHARED}")
 endfunction()

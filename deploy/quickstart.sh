@@ -43,7 +43,7 @@ build() {
   say "Installing and building (the first time takes some minutes)"
   "$root/deploy/install_packages.sh" --build
   local log="$directory/build.log"
-  (cd "$root" && cmake --preset release && cmake --build --preset release --target truepose trueposed) >"$log" 2>&1 ||
+  (cd "$root" && cmake --preset release -DTRUEPOSE_PRECOMPILE=ON && cmake --build --preset release --target truepose trueposed) >"$log" 2>&1 ||
     { tail -n 40 "$log" >&2; fail "the build failed; all of it is in $log"; }
   echo "Built $binaries"
 }

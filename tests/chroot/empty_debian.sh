@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # empty_debian.sh [DIRECTORY]: proves the two commands where nothing is installed. Makes a minimal Debian 12 in a new
 # folder (below DIRECTORY, default the temporary folder), puts a clone of this tree there, runs deploy/quickstart.sh
-# and tests/run.sh in it and prints how long each took. Runs as root; packages come from where this host has its own.
+# and .ci/run in it and prints how long each took. Runs as root; packages come from where this host has its own.
 set -euo pipefail
 
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)"
@@ -77,4 +77,4 @@ put_tree
 timed "deploy/quickstart.sh" inside "deploy/quickstart.sh --directory /root/first"
 timed "deploy/quickstart.sh again" inside "deploy/quickstart.sh --directory /root/first"
 timed "deploy/quickstart.sh without data" inside "deploy/quickstart.sh --directory /root/second --data /nowhere"
-timed "tests/run.sh" inside "tests/run.sh"
+timed ".ci/run" inside ".ci/run"
