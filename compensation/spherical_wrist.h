@@ -4,14 +4,14 @@
 //
 // The pose wanted says where W has to be. Joints 1 to 3 put it there in at most four ways
 // (wrist_placement.h), and for each joints 4 to 6 turn the flange in two (wrist_turns.h): eight
-// branches at most.
+// branches at most, but for singular places with joints left free.
 #pragma once
 
 #include "compensation/kinematics.h"
 
 namespace truepose::compensation {
 
-inline constexpr int kMaxWristBranches = 16;  // candidates: eight and doubles of double roots
+inline constexpr int kMaxWristBranches = 32;  // candidates: eight, and more near singularities
 
 struct SphericalWrist {
   bool is_one = false;

@@ -268,6 +268,39 @@ TEST(SphericalWrist, FreeJointsStayAtTheReference) {
   }
 }
 
+// Stretched, folded, over an axis, straight and all at once, as arms stand at home. Would catch a
+// free joint that noise moves away from the reference, and a pose given up because two double roots
+// are right to 1e-8 only where 1e-10 is asked for.
+TEST(SphericalWrist, EverySingularPlaceIsReachedAtTheReference) {
+  std::vector<Shoulder> shoulders = RevoluteShoulders();
+  for (Shoulder& shoulder : SlidingShoulders()) shoulders.push_back(shoulder);
+  const double turns[] = {0, kPi / 2, 0.5, kPi}, slides[] = {0, 0.2, -0.43, 0.3};
+  for (const Shoulder& shoulder : shoulders) {
+    const Arm arm = DhWristArm(shoulder.rows, shoulder.types, r);
+    for (int draw = 0; draw < 4 * 4 * 3; ++draw) {
+      const auto& third = arm.nominal.prismatic[2] ? slides : turns;
+      const JointArray q = {0.5, turns[draw % 4],   third[draw / 4 % 4],
+                            0.3, 0.7 * (draw / 16), -0.4};
+      const Branches branches = AllBranches(arm, NominalFlange(arm, q.data()), q.data(), {});
+      ASSERT_EQ(branches.outcome, Outcome::kOk) << shoulder.name;
+      EXPECT_LT(Apart(arm, branches.q[0], q), 1e-5) << shoulder.types << ", " << shoulder.name;
+    }
+  }
+}
+
+// A wrist that is straight but for the last digits of the pose: q4 is told by them, whatever the
+// reference. Would catch a straight wrist taken for one, and a q5 that is not right to them.
+TEST(SphericalWrist, NearlyStraightWrists) {
+  const Arm arm = NominalArm(truepose::testing::Stanford());
+  for (const double bent : {1e-5, 1e-7, 1e-9, 1e-11}) {
+    const JointArray q = {0.4, -0.7, 0.3, 0.6, bent, -0.3}, reference = {0, 0, 0, -1, 0.5, 0};
+    const Pose X = NominalFlange(arm, q.data());
+    const Branches branches = AllBranches(arm, X, reference.data(), {});
+    ASSERT_EQ(branches.outcome, Outcome::kOk) << bent;
+    EXPECT_LT(Remainder(X, NominalFlange(arm, branches.q[0].data())).norm(), 2e-10) << bent;
+  }
+}
+
 // First three joints that move W on a surface only, whatever they do.
 std::vector<Shoulder> ShouldersThatCannotPlace() {
   return {
