@@ -1,7 +1,6 @@
 #include "compensation/wrist_placement.h"
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 
 #include "compensation/polynomial.h"
@@ -230,12 +229,12 @@ double VolumeAt(const JointChain& three, double q2, double q3, double length_m) 
 bool CanPlace(const JointChain& chain, const Eigen::Vector3d& b) noexcept {
   const JointChain three = FirstThree(chain, b);
   const double length_m = CharacteristicLength(chain);
-  double largest = 0;
   for (const double q2 : kSomewhere) {
-    for (const double q3 : kSomewhere)
-      largest = std::max(largest, VolumeAt(three, q2, q3, length_m));
+    for (const double q3 : kSomewhere) {
+      if (VolumeAt(three, q2, q3, length_m) > kPlaces) return true;
+    }
   }
-  return largest > kPlaces;
+  return false;
 }
 
 Placements PlacementsOf(const JointChain& chain, const Eigen::Vector3d& b, const Eigen::Vector3d& w,
