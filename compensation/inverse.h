@@ -1,6 +1,7 @@
 // Nominal inverse kinematics of any chain.
 //
-// Six revolute joints whose last three axes meet: closed form (spherical_wrist.h), all branches.
+// Six joints of which the last three are revolute with axes that meet, the first three revolute or
+// prismatic: closed form (spherical_wrist.h), all branches.
 // Any other chain: damped Newton from the reference and from seeded draws over the limits; all
 // branches that are found. With more than six joints a branch is the solution nearest to the
 // reference within its null space; with fewer it is a least remainder (exact.h), of which only the

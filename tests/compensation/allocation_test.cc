@@ -8,6 +8,7 @@
 #include "compensation/inverse.h"
 #include "compensation/path.h"
 #include "tests/compensation/arms.h"
+#include "tests/compensation/wrist_arms.h"
 
 namespace {
 std::atomic<long> allocations{0};
@@ -64,6 +65,19 @@ TEST(Allocation, NoneInAnyWay) {
       FollowPath(named.arm, path, 3, q.data(), {}, out);
     });
     EXPECT_EQ(counted, 0) << named.name;
+  }
+}
+
+// The closed form for every types of the first three joints.
+TEST(Allocation, NoneInTheClosedForm) {
+  const JointArray q = {0.3, -1.2, 1.1, -0.7, 1.1, 0.4};
+  Random random(83);
+  for (const std::string& types : truepose::testing::AllTypesOfThree()) {
+    const Arm arm = truepose::testing::RandomWristArm(types, &random);
+    const Pose X = NominalFlange(arm, q.data());
+    Branches branches;
+    EXPECT_EQ(AllocationsOf([&] { branches = AllBranches(arm, X, q.data(), {}); }), 0) << types;
+    EXPECT_TRUE(branches.closed_form) << types;
   }
 }
 
