@@ -14,6 +14,7 @@ function(truepose_precompile_by_folder name suffix)
     set(layer core)
   endif()
   target_precompile_headers(${name} REUSE_FROM truepose_${layer}${suffix}_headers)
+  target_compile_options(${name} PRIVATE -pthread)  # gRPC has it, and they must agree
 endfunction()
 
 # precompiled_headers(NAME HEADERS header... LINKS library...): a library of one empty source.
@@ -23,6 +24,7 @@ function(precompiled_headers name)
   file(WRITE ${empty} "")
   add_library(${name} OBJECT ${empty})
   target_link_libraries(${name} PRIVATE truepose_options ${ARG_LINKS})
+  target_compile_options(${name} PRIVATE -pthread)
   target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
 endfunction()
 
