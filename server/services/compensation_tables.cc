@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "absl/time/time.h"
+#include "convert/table_spec.h"
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
 #include "server/resource/resource_name.h"
@@ -64,7 +66,7 @@ absl::StatusOr<NewTable> WantedBy(Snapshot& snapshot, const Caller& caller,
   NewTable wanted{.robot = robot.name(),
                   .id = request.compensation_table_id(),
                   .calibration = {},
-                  .spec = robot.table_spec(),
+                  .spec = convert::StoredTableSpec(robot.table_spec()),
                   .created_by = caller.principal,
                   .created_by_machine = caller.is_machine,
                   .priority = request.priority()};

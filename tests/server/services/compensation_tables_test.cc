@@ -271,6 +271,35 @@ TEST_F(TablesTest, FollowsAChangeOfTheSpec) {
   EXPECT_EQ(Tables().size(), 2u);
 }
 
+// Would catch a robot whose spec was stored when an edge at 0 was written as nothing, and which
+// gets no table any more.
+TEST_F(TablesTest, AStoredEdgeThatIsMissingIsZero) {
+  const auto spec = testing::Parse<v1::CompensationTableSpec>(R"pb(
+    box {
+      min_x_m: -0.6
+      max_x_m: -0.4
+      min_y_m: -0.2
+      min_z_m: 0.2
+      max_z_m: 0.4
+      reference_joints: [ 0, -1, 1.5, -2, -1.57, 0 ]
+    })pb");
+  ASSERT_THAT(store().Write([&](store::Transaction& transaction) -> absl::Status {
+    TRUEPOSE_ASSIGN_OR_RETURN(v1::Robot robot, store::GetRobot(transaction, "robots/ur10"));
+    *robot.mutable_table_spec() = spec;
+    return store::PutRobot(transaction, robot).status();
+  }),
+              IsOk());
+  Approve(kFirst);
+  Activate(kFirst);
+  ASSERT_EQ(Tables().size(), 1u);
+  EXPECT_TRUE(Tables()[0].spec().box().has_max_y_m());
+  v1::CreateCompensationTableRequest request = Request(kTable1, kFirst);
+  *request.mutable_compensation_table()->mutable_spec() = spec;
+  EXPECT_THAT(CreateCompensationTable(AsAnna(), request),
+              HasFaultsAt(Fields{"compensation_table.spec.box.max_y_m"}))
+      << "who asks for it now has to say where";
+}
+
 // Would catch an activation that fails for its table, or a reason that nobody can find.
 TEST_F(TablesTest, WhatCannotBeBuiltIsSaid) {
   v1::CompensationTableSpec ranges;
