@@ -94,6 +94,9 @@ absl::StatusOr<ProgramCorrection> TableCorrection(const std::string& path,
                        "one of a robot that runs programs");
   }
   ProgramCorrection correction;
+  const compensation::Digest& digest = table.header.calibration_digest;
+  correction.calibration = absl::BytesToHexString(
+      absl::string_view(reinterpret_cast<const char*>(digest.data()), digest.size()));
   for (int j = 0; j < table.header.joints; ++j)
     correction.prismatic.push_back(table.arm.nominal.prismatic[static_cast<size_t>(j)]);
   correction.correct = [file](const std::vector<std::vector<double>>& targets)

@@ -47,6 +47,15 @@ class ProgramTableTest : public ::testing::Test {
     return joints;
   }
 
+  // Names the calibration of which the table is.
+  std::string Mark() const {
+    std::string hex;
+    for (const auto byte : content_.header.calibration_digest)
+      absl::StrAppend(&hex, absl::StrFormat("%02x", std::to_integer<unsigned>(std::byte(byte))));
+    return absl::StrCat("; corrected by truepose, calibration ", hex,
+                        ": correct the original, not this file\n");
+  }
+
   static std::string Ptp(const std::vector<double>& deg) {
     std::string text = "PTP {";
     for (size_t j = 0; j < deg.size(); ++j)
@@ -74,8 +83,8 @@ TEST_F(ProgramTableTest, JointsAreThoseOfTheTable) {
   ASSERT_EQ(corrected.outcome, compensation::Outcome::kOk);
   std::vector<double> expected;
   for (size_t j = 0; j < 6; ++j) expected.push_back(corrected.q[j] * 180 / std::numbers::pi);
-  EXPECT_EQ(folder_.Read("out.src"), Ptp(expected));
-  EXPECT_NE(folder_.Read("out.src"), Ptp(deg));
+  EXPECT_EQ(folder_.Read("out.src"), Mark() + Ptp(expected));
+  EXPECT_NE(folder_.Read("out.src"), Mark() + Ptp(deg));
 }
 
 // Would catch extrapolation, and a reason that names no joint.
