@@ -9,6 +9,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "client/cli/program_correction.h"
+#include "client/cli/table_fault.h"
 #include "compensation/correct_by_table.h"
 #include "compensation/table_file.h"
 #include "convert/run.h"
@@ -84,10 +85,7 @@ absl::StatusOr<ProgramCorrection> TableCorrection(const std::string& path,
   if (nominal != nullptr) expectation.nominal_digest = DigestOf(*nominal);
   const auto file = std::make_shared<TableFile>();
   const compensation::TableReport report = TableFile::Map(path.c_str(), expectation, file.get());
-  if (!report.ok()) {
-    return FaultStatus("--table", absl::StrCat(path, ": ", report.message.data()),
-                       "a whole compensation table of this robot");
-  }
+  if (!report.ok()) return TableFaultStatus(report, path, absl::StrCat("--table ", path));
   const Table& table = file->table();
   if (table.arm.measuring) {
     return FaultStatus("--table", absl::StrCat(path, ", of a measuring robot"),

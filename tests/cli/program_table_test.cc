@@ -103,12 +103,15 @@ TEST_F(ProgramTableTest, OtherFilesAreRefused) {
   std::string bytes = folder_.Read("t.tpct");
   const Ran other = Correct(program, {"--robot", Example("ur10.yaml")});
   EXPECT_EQ(other.code, 3);
-  EXPECT_THAT(other.err, HasSubstr("--table: found " + table_));
+  EXPECT_THAT(
+      other.err,
+      HasSubstr("--table " + table_ +
+                ": other nominal robot: nominal_digest: found that of another nominal robot"));
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
   folder_.Write("t.tpct", bytes);
   const Ran damaged = Correct(program);
   EXPECT_EQ(damaged.code, 3);
-  EXPECT_THAT(damaged.err, HasSubstr("--table: found " + table_));
+  EXPECT_THAT(damaged.err, HasSubstr("--table " + table_ + ": damaged: "));
 }
 
 TEST_F(ProgramTableTest, OneOfTableAndCalibration) {

@@ -141,5 +141,17 @@ TEST_F(TableRemoteTest, DeleteAndUndelete) {
   EXPECT_THAT(Demand({"table", "show", "ur10"}).out, HasSubstr(name));
 }
 
+// Would catch a spec that only its job finds out can't be built, and faults in units of nobody's.
+TEST_F(TableRemoteTest, AFaultySpecIsRefusedWithTheUnitsThatWereWritten) {
+  const Ran zero =
+      Remote({"robot", "update", "ur10", "--table-spec", Spec("position_tolerance_mm: 0\n")});
+  EXPECT_EQ(zero.code, 3);
+  EXPECT_THAT(zero.err, HasSubstr("spec.yaml: position_tolerance_mm: found 0 mm"));
+  const Ran set =
+      Remote({"robot", "update", "ur10", "--set", "table_spec.position_tolerance_mm=0"});
+  EXPECT_EQ(set.code, 3);
+  EXPECT_THAT(set.err, HasSubstr("robot.table_spec.position_tolerance_mm: found 0 mm"));
+}
+
 }  // namespace
 }  // namespace truepose::cli
