@@ -25,11 +25,14 @@ v1::AccuracyMapSpec Completed(v1::AccuracyMapSpec spec) {
   return spec;
 }
 
+absl::Status CheckBox(const v1::Nominal& nominal, const v1::BoxDomain& box) {
+  v1::CompensationTableSpec table;
+  *table.mutable_box() = box;
+  return ValidateTableSpec(nominal, table);
+}
+
 absl::StatusOr<AccuracyMapSpec> SpecFrom(const v1::Nominal& nominal,
                                          const v1::AccuracyMapSpec& message) {
-  v1::CompensationTableSpec table;
-  *table.mutable_box() = message.box();
-  TRUEPOSE_RETURN_IF_ERROR(ValidateTableSpec(nominal, table));
   AccuracyMapSpec spec;
   TRUEPOSE_ASSIGN_OR_RETURN(spec.box, BoxFrom(nominal, message.box()));
   spec.points = {message.points_x(), message.points_y(), message.points_z()};
@@ -75,6 +78,7 @@ absl::StatusOr<v1::AccuracyMap> RunAccuracyMap(const v1::Nominal& nominal,
                                                const v1::AccuracyMapSpec& spec,
                                                const RunHooks& hooks) {
   TRUEPOSE_ASSIGN_OR_RETURN(const CalibratedArm arm, CalibratedArmFrom(nominal, calibration));
+  TRUEPOSE_RETURN_IF_ERROR(CheckBox(nominal, spec.box()));
   const v1::AccuracyMapSpec completed = Completed(spec);
   TRUEPOSE_ASSIGN_OR_RETURN(const AccuracyMapSpec of_core, SpecFrom(nominal, completed));
   const auto sources = AccuracySourcesFrom(arm.calibrated, calibration);

@@ -34,6 +34,19 @@ using compensation::Correction;
 using compensation::ExactOptions;
 using compensation::Outcome;
 
+// Why a target was not compensated; OK = it was.
+struct Refused {
+  v1::CompensationOutcome outcome = v1::COMPENSATION_OK;
+  std::string why = {};
+  int joint = -1;
+};
+
+void FillRefused(const Refused& refused, v1::CompensatedTarget* result) {
+  result->Clear();
+  result->set_fault(refused.why);
+  if (refused.joint >= 0) result->set_joint(refused.joint);
+}
+
 // Compensates targets of one robot with one tool.
 class Compensator {
  public:
@@ -46,42 +59,40 @@ class Compensator {
 
   v1::CompensatedTarget Run(const v1::CompensationTarget& target) const {
     v1::CompensatedTarget result;
-    const absl::Status status = Correct(target, &result);
-    if (!status.ok()) {
-      result.Clear();
-      result.set_fault(std::string(status.message()));
-    }
+    const Refused refused = Correct(target, &result);
+    if (refused.outcome != v1::COMPENSATION_OK) FillRefused(refused, &result);
+    result.set_outcome(refused.outcome);
     result.set_row(target.row());
     return result;
   }
 
  private:
-  absl::Status Correct(const v1::CompensationTarget& target, v1::CompensatedTarget* result) const {
+  Refused Correct(const v1::CompensationTarget& target, v1::CompensatedTarget* result) const {
     if (arm_.measuring) return RunTip(target, result);
     return target.has_pose() ? RunPose(target, result) : RunJoints(target, result);
   }
 
   // A measuring robot is read, not commanded: joints in, the tip where it really is out.
-  absl::Status RunTip(const v1::CompensationTarget& target, v1::CompensatedTarget* result) const {
+  Refused RunTip(const v1::CompensationTarget& target, v1::CompensatedTarget* result) const {
     if (target.has_pose()) {
-      return absl::FailedPreconditionError(
-          "a measuring robot can't be sent to a pose: give the joints that were read");
+      return {v1::COMPENSATION_INVALID_TARGET,
+              "a measuring robot can't be sent to a pose: give the joints that were read"};
     }
     const double* q = target.joints().data();
     const Pose X_BT = CorrectedTip(arm_, q, X_FT_, Eigen::Vector3d::UnitZ()).X_BT;
     *result->mutable_pose() = ToProto(X_BT);
     SetCorrection(X_BT, NominalFlange(arm_, q) * X_FT_, result);
-    return absl::OkStatus();
+    return {};
   }
 
-  absl::Status RunJoints(const v1::CompensationTarget& target,
-                         v1::CompensatedTarget* result) const {
+  Refused RunJoints(const v1::CompensationTarget& target, v1::CompensatedTarget* result) const {
     const double* q = target.joints().data();
-    TRUEPOSE_RETURN_IF_ERROR(CheckLimits(q));
+    Refused beyond = CheckLimits(q);
+    if (beyond.outcome != v1::COMPENSATION_OK) return beyond;
     return Fill(q, NominalFlange(arm_, q), CorrectJoints(arm_, q, options_), result);
   }
 
-  absl::Status RunPose(const v1::CompensationTarget& target, v1::CompensatedTarget* result) const {
+  Refused RunPose(const v1::CompensationTarget& target, v1::CompensatedTarget* result) const {
     const Pose X_BF = PoseFrom(target.pose()) * Inverse(X_FT_);
     const Eigen::VectorXd seed =
         target.joints_size() > 0
@@ -93,15 +104,15 @@ class Compensator {
   }
 
   // @param q_nominal where the nominal flange is at X_BF.
-  absl::Status Fill(const double* q_nominal, const Pose& X_BF, const Correction& solved,
-                    v1::CompensatedTarget* result) const {
-    TRUEPOSE_RETURN_IF_ERROR(CheckOutcome(solved));
+  Refused Fill(const double* q_nominal, const Pose& X_BF, const Correction& solved,
+               v1::CompensatedTarget* result) const {
+    if (solved.outcome != Outcome::kOk) return RefusedFor(solved);
     for (int i = 0; i < robot_.joint_count(); ++i) result->add_joints(solved.q[i]);
     *result->mutable_pose() = ToProto(NominalFlange(arm_, solved.q.data()) * X_FT_);
     SetCorrection(X_BF * X_FT_, IdentifiedFlange(arm_, q_nominal) * X_FT_, result);
     result->set_residual_position_mm(solved.position_error_m * kMmPerM);
     result->set_iterations(solved.iterations);
-    return absl::OkStatus();
+    return {};
   }
 
   static void SetCorrection(const Pose& desired, const Pose& uncompensated,
@@ -112,25 +123,27 @@ class Compensator {
   }
 
   // What is wrong, by how much, and what to do.
-  absl::Status CheckOutcome(const Correction& solved) const {
+  Refused RefusedFor(const Correction& solved) const {
     const std::string left =
         absl::StrFormat("%.3g mm and %.3g deg are left", solved.position_error_m * kMmPerM,
                         solved.rotation_error_rad * kDegPerRad);
     switch (solved.outcome) {
-      case Outcome::kOk:
-        return absl::OkStatus();
       case Outcome::kBeyondLimit:
-        return absl::FailedPreconditionError(
-            absl::StrCat("the compensated joint ", LimitsOf(solved.joint), ": at best ", left,
-                         "; move the target away from this limit or choose another configuration"));
+        return {v1::COMPENSATION_BEYOND_LIMIT,
+                absl::StrCat("the compensated joint ", LimitsOf(solved.joint), ": at best ", left,
+                             "; move the target away from this limit or choose another "
+                             "configuration"),
+                solved.joint};
       case Outcome::kNearSingular:
-        return absl::FailedPreconditionError(
-            absl::StrCat("near a singularity (at best ", left,
-                         "): joints would have to move far; move the target or choose another "
-                         "configuration"));
+        return {v1::COMPENSATION_NEAR_SINGULAR,
+                absl::StrCat("near a singularity (at best ", left,
+                             "): joints would have to move far; move the target or choose another "
+                             "configuration")};
+      case Outcome::kInvalidArgument:
+        return {v1::COMPENSATION_INVALID_TARGET, "values that are neither joints nor a pose"};
       default:
-        return absl::FailedPreconditionError(
-            absl::StrCat("out of reach: at best ", left, "; move the target"));
+        return {v1::COMPENSATION_UNREACHABLE,
+                absl::StrCat("out of reach: at best ", left, "; move the target")};
     }
   }
 
@@ -142,15 +155,15 @@ class Compensator {
                         joint.upper * scale, angle ? " deg" : " mm");
   }
 
-  absl::Status CheckLimits(const double* q) const {
+  Refused CheckLimits(const double* q) const {
     for (int i = 0; i < robot_.joint_count(); ++i) {
       const Joint& joint = robot_.joints()[i];
       if (q[i] >= joint.lower && q[i] <= joint.upper) continue;
       const double scale = joint.type == JointType::kRevolute ? kDegPerRad : kMmPerM;
-      return absl::FailedPreconditionError(
-          absl::StrCat("the target's ", q[i] * scale, " of joint ", LimitsOf(i)));
+      return {v1::COMPENSATION_BEYOND_LIMIT,
+              absl::StrCat("the target's ", q[i] * scale, " of joint ", LimitsOf(i)), i};
     }
-    return absl::OkStatus();
+    return {};
   }
 
   const Robot& robot_;

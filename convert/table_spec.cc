@@ -1,5 +1,6 @@
 #include "convert/table_spec.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -13,20 +14,25 @@ namespace truepose::convert {
 namespace {
 
 // Nodes are floats: of corrections of some mm a float holds 1e-9 m, and a table of it meets no
-// less than this.
-constexpr double kLeastTolerance = 1e-8;
+// less than this. More than the most is no correction at all.
+constexpr double kLeastTolerance = 1e-8, kMostTolerance = 1;
+constexpr double kLeastSingularValue = 1e-9;
+constexpr double kTurn = 2 * std::numbers::pi;
 
-void CheckTolerance(double value, const char* unit, const std::string& field, FaultList* faults) {
-  if (value == 0.0 || (std::isfinite(value) && value >= kLeastTolerance)) return;
-  faults->Add(field, absl::StrCat(value), absl::StrCat(kLeastTolerance, " ", unit, " or more"));
+void CheckTolerance(double value, const std::string& field, FaultList* faults) {
+  if (value >= kLeastTolerance && value <= kMostTolerance) return;
+  const char* const unit = UnitOf(field);
+  faults->Add(field, absl::StrCat(value, unit),
+              absl::StrCat(kLeastTolerance, unit, " to ", kMostTolerance, unit, ", or none"));
 }
 
 void CheckRange(double lower, double upper, const std::string& lower_field,
                 const std::string& upper_field, FaultList* faults) {
   CheckSize(lower, kLargestJoint, lower_field, faults);
   CheckSize(upper, kLargestJoint, upper_field, faults);
+  const char* const unit = UnitOf(upper_field);
   if (!(lower < upper))
-    faults->Add(upper_field, absl::StrCat(upper), absl::StrCat("more than ", lower));
+    faults->Add(upper_field, absl::StrCat(upper, unit), absl::StrCat("more than ", lower, unit));
 }
 
 std::string RangeField(int joint, const char* side) {
@@ -51,15 +57,38 @@ void CheckRoll(const v1::BoxDomain& box, FaultList* faults) {
   if (box.min_roll_rad() == 0.0 && box.max_roll_rad() == 0.0) return;
   CheckRange(box.min_roll_rad(), box.max_roll_rad(), "box.min_roll_rad", "box.max_roll_rad",
              faults);
+  CheckSize(box.min_roll_rad(), kTurn, "box.min_roll_rad", faults);
+  CheckSize(box.max_roll_rad(), kTurn, "box.max_roll_rad", faults);
+}
+
+// Along one axis of B.
+struct Edges {
+  const char* axis;
+  bool has_lower, has_upper;
+  double lower, upper;
+};
+
+std::array<Edges, 3> EdgesOf(const v1::BoxDomain& box) {
+  return {{{"x", box.has_min_x_m(), box.has_max_x_m(), box.min_x_m(), box.max_x_m()},
+           {"y", box.has_min_y_m(), box.has_max_y_m(), box.min_y_m(), box.max_y_m()},
+           {"z", box.has_min_z_m(), box.has_max_z_m(), box.min_z_m(), box.max_z_m()}}};
+}
+
+void CheckEdges(const Edges& edges, FaultList* faults) {
+  const std::string lower = absl::StrCat("box.min_", edges.axis, "_m");
+  const std::string upper = absl::StrCat("box.max_", edges.axis, "_m");
+  if (!edges.has_lower) faults->Add(lower, "nothing", "all six edges of the box");
+  if (!edges.has_upper) faults->Add(upper, "nothing", "all six edges of the box");
+  if (edges.has_lower && edges.has_upper)
+    CheckRange(edges.lower, edges.upper, lower, upper, faults);
 }
 
 void CheckBox(const v1::BoxDomain& box, FaultList* faults) {
-  CheckRange(box.min_x_m(), box.max_x_m(), "box.min_x_m", "box.max_x_m", faults);
-  CheckRange(box.min_y_m(), box.max_y_m(), "box.min_y_m", "box.max_y_m", faults);
-  CheckRange(box.min_z_m(), box.max_z_m(), "box.min_z_m", "box.max_z_m", faults);
+  for (const Edges& edges : EdgesOf(box)) CheckEdges(edges, faults);
   CheckApproach(box, faults);
   if (!(box.cone_rad() >= 0.0 && box.cone_rad() <= std::numbers::pi))
-    faults->Add("box.cone_rad", absl::StrCat(box.cone_rad()), "0 to pi");
+    faults->Add("box.cone_rad", absl::StrCat(box.cone_rad(), " rad"),
+                absl::StrCat("0 rad to ", std::numbers::pi, " rad"));
   CheckRoll(box, faults);
   if (box.reference_joints().empty())
     faults->Add("box.reference_joints", "none", "one a joint, which pick the configuration");
@@ -70,11 +99,14 @@ void CheckBox(const v1::BoxDomain& box, FaultList* faults) {
 }
 
 void CheckFigures(const v1::CompensationTableSpec& spec, FaultList* faults) {
-  CheckTolerance(spec.position_tolerance_m(), "m", "position_tolerance_m", faults);
-  CheckTolerance(spec.rotation_tolerance_rad(), "rad", "rotation_tolerance_rad", faults);
-  if (!(spec.smallest_singular_value() >= 0.0 && spec.smallest_singular_value() < 1.0))
-    faults->Add("smallest_singular_value", absl::StrCat(spec.smallest_singular_value()),
-                "0 to 1; 0 = the default");
+  if (spec.has_position_tolerance_m())
+    CheckTolerance(spec.position_tolerance_m(), "position_tolerance_m", faults);
+  if (spec.has_rotation_tolerance_rad())
+    CheckTolerance(spec.rotation_tolerance_rad(), "rotation_tolerance_rad", faults);
+  const double singular = spec.smallest_singular_value();
+  if (singular != 0.0 && !(singular >= kLeastSingularValue && singular < 1.0))
+    faults->Add("smallest_singular_value", absl::StrCat(singular),
+                absl::StrCat(kLeastSingularValue, " to 1, or 0 = the default"));
   const int points = spec.verification_points();
   if (points != 0 && (points < kFewestVerificationPoints || points > kMostVerificationPoints))
     faults->Add("verification_points", absl::StrCat(points),
@@ -126,6 +158,16 @@ T Or(T given, T standard) {
   return given == T{} ? standard : given;
 }
 
+// A spec of the store may be older than edges that can be missing: 0 was then written as nothing.
+void GiveEdges(v1::BoxDomain* box) {
+  box->set_min_x_m(box->min_x_m());
+  box->set_min_y_m(box->min_y_m());
+  box->set_min_z_m(box->min_z_m());
+  box->set_max_x_m(box->max_x_m());
+  box->set_max_y_m(box->max_y_m());
+  box->set_max_z_m(box->max_z_m());
+}
+
 std::string BoxText(const v1::BoxDomain& box) {
   std::string text =
       absl::StrFormat("box %a %a %a %a %a %a\ntool %s\napproach %a %a %a\ncone %a\nroll %a %a\n",
@@ -160,8 +202,13 @@ absl::Status ValidateTableSpec(const v1::Nominal& nominal, const v1::Compensatio
   return faults.ToStatus();
 }
 
+v1::CompensationTableSpec StoredTableSpec(v1::CompensationTableSpec spec) {
+  if (spec.has_box()) GiveEdges(spec.mutable_box());
+  return spec;
+}
+
 v1::CompensationTableSpec CompleteTableSpec(const v1::CompensationTableSpec& spec) {
-  v1::CompensationTableSpec complete = spec;
+  v1::CompensationTableSpec complete = StoredTableSpec(spec);
   complete.set_position_tolerance_m(Or(spec.position_tolerance_m(), kTablePositionTolerance_m));
   complete.set_rotation_tolerance_rad(
       Or(spec.rotation_tolerance_rad(), kTableRotationTolerance_rad));

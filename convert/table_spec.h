@@ -17,15 +17,20 @@ inline constexpr int kTableVerificationPoints = 10'000, kFewestVerificationPoint
 inline constexpr int kMostVerificationPoints = 1'000'000;
 inline constexpr long long kTableLargestBytes = 64LL << 20;
 
-// Every fault that shows without a robot: numbers that are not finite, ranges upside down,
-// tolerances below what a float holds, an approach that is no unit vector.
+// Every fault that shows without a robot: edges of the box that are missing, numbers that are not
+// finite, ranges upside down, tolerances of 0 and below what a float holds, an approach that is no
+// unit vector.
 absl::Status ValidateTableSpec(const v1::CompensationTableSpec& spec);
 
 // The same, and what only the robot tells: the number of joints, ranges beyond its limits, a tool
 // that it has not.
 absl::Status ValidateTableSpec(const v1::Nominal& nominal, const v1::CompensationTableSpec& spec);
 
-// The spec with every default written out, so that equal specs have equal digests.
+// The same spec with the missing edges of its box as 0: one that was stored when 0 and nothing were
+// alike. What a caller gives is validated as it is.
+v1::CompensationTableSpec StoredTableSpec(v1::CompensationTableSpec spec);
+
+// The stored spec with every default written out, so that equal specs have equal digests.
 v1::CompensationTableSpec CompleteTableSpec(const v1::CompensationTableSpec& spec);
 
 // SHA-256 in lower-case hex over text lines: both digests, then the completed spec.

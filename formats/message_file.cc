@@ -142,7 +142,11 @@ struct Place {
   }
   Place Item(size_t index) const { return {ItemPath(path, index), "", nullptr}; }
   void Give() const {
-    if (given != nullptr) given->push_back(mask);
+    if (given != nullptr) given->paths.push_back(mask);
+  }
+  void GiveIn(const Unit* unit) const {
+    const bool in_si = unit != nullptr && (unit->symbol == "m" || unit->symbol == "rad");
+    if (given != nullptr && in_si) given->in_si.push_back(mask);
   }
 };
 
@@ -172,10 +176,14 @@ class Reader {
   void ReadField(const YamlNode& node, const Place& outer, const FieldDescriptor& field,
                  const Unit* unit, Message& message) const {
     Place place = outer.In(node.key, field.name());
-    if (node.kind == YamlNode::Kind::kNull) return place.Give();
+    if (node.kind == YamlNode::Kind::kNull) {
+      message.GetReflection()->ClearField(&message, &field);  // what a file before this gave
+      return place.Give();
+    }
     if (field.is_repeated()) return ReadList(node, place, field, unit, message);
     if (!IsGroup(field)) {
       place.Give();
+      place.GiveIn(unit);
       return Value(node, place.path, field, unit, faults_).Store(message);
     }
     Message& group = *message.GetReflection()->MutableMessage(&message, &field);

@@ -16,9 +16,13 @@
 
 namespace truepose::formats {
 
-// Which fields of a message a text has given, as paths of a field mask: `serial`,
-// `limits.drift_rms_mm`; poses and lists as a whole.
-using GivenFields = std::vector<std::string>;
+// Which fields of a message a text has given.
+struct GivenFields {
+  // As paths of a field mask: `serial`, `limits.drift_rms_mm`; poses and lists as a whole.
+  std::vector<std::string> paths;
+  // Those of them that were written in m or rad, and not in mm or deg.
+  std::vector<std::string> in_si;
+};
 
 // Sets the fields of `message` that the file gives and adds their paths to `given`.
 // @returns kNotFound or kPermissionDenied with one fault that names the path when it can't be read;

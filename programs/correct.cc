@@ -11,6 +11,7 @@
 #include "core/base/status_macros.h"
 #include "formats/strings.h"
 #include "programs/lines.h"
+#include "programs/mark.h"
 #include "programs/proof.h"
 #include "programs/written_number.h"
 
@@ -75,8 +76,13 @@ class Corrector {
   absl::StatusOr<CorrectedProgram> Finish() && {
     std::string after = Write();
     TRUEPOSE_RETURN_IF_ERROR(ProveCorrected(text_, program_, expected_, after, dialect_, Joints()));
-    return CorrectedProgram{std::move(after), std::move(changes_), std::move(uncorrected_),
-                            std::move(program_.passed_through)};
+    MarkedText marked{std::move(after), 0};
+    if (!changes_.empty() && !options_.calibration.empty()) {
+      TRUEPOSE_ASSIGN_OR_RETURN(marked,
+                                AddMark(marked.text, dialect_, Joints(), options_.calibration));
+    }
+    return CorrectedProgram{std::move(marked.text), marked.line, std::move(changes_),
+                            std::move(uncorrected_), std::move(program_.passed_through)};
   }
 
  private:

@@ -1,8 +1,9 @@
 // A program's joint targets, corrected where they stand.
 //
-// Every byte outside of corrected numbers stays as it was: comments, folds, line ends, speeds, what
-// is not understood. Numbers are written without exponent, with at least 8 decimals in rad and m
-// and 6 in degrees and mm, and up to 10 where they had more.
+// A line that says so is added (mark.h); every byte else outside of corrected numbers stays as it
+// was: comments, folds, line ends, speeds, what is not understood. Numbers are written without
+// exponent, with at least 8 decimals in rad and m and 6 in degrees and mm, and up to 10 where they
+// had more.
 #pragma once
 
 #include <functional>
@@ -33,6 +34,8 @@ struct CorrectOptions {
   // millimetre turns a wrist by tens of degrees, and the calibration of another robot does worse.
   double largest_change_rad = 0.0872665;  // 5 degrees
   double largest_change_m = 0.02;         // of joints that slide
+  // Digest of what corrects, for the mark of a program in which something was corrected; "" = none.
+  std::string calibration = {};
 };
 
 // One corrected target, numbers in the unit in which the program has them.
@@ -44,7 +47,8 @@ struct Change {
 
 struct CorrectedProgram {
   std::string text;
-  std::vector<Change> changes;         // in the order of the text
+  int mark_line = 0;                   // of the text: the line that is new; 0 = there is none
+  std::vector<Change> changes;         // in the order of the text; lines are those of the input
   std::vector<Remark> uncorrected;     // targets that stayed: no answer, wrong number of joints
   std::vector<Remark> passed_through;  // what was not understood or is no joint target
 };

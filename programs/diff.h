@@ -6,10 +6,12 @@
 
 namespace truepose::programs {
 
-// A unified diff with three lines of context; "" when nothing differs. The texts have the same
-// number of lines (a correction never adds one): line i is compared with line i. Line ends are
-// those of the texts, so that `patch --binary` makes the one from the other.
+// A unified diff with three lines of context; "" when nothing differs. Line i is compared with line
+// i, for a correction changes lines where they stand; only `added_line` of `after` (counted from 1,
+// 0 = none) is new. Line ends are those of the texts, so that `patch --binary` makes the one from
+// the other.
 std::string UnifiedDiff(std::string_view before, std::string_view after,
-                        std::string_view before_name, std::string_view after_name);
+                        std::string_view before_name, std::string_view after_name,
+                        int added_line = 0);
 
 }  // namespace truepose::programs

@@ -4,6 +4,7 @@
 #include "server/services/recalibration_schedule.h"
 #include "server/store/events.h"
 #include "server/store/replies.h"
+#include "server/store/table_files.h"
 
 namespace truepose::server {
 namespace {
@@ -48,6 +49,13 @@ absl::Status ForgetOldReplies(store::Store& store) {
       [](Transaction& transaction) { return store::ForgetReplies(transaction, kMostOfCommit); });
 }
 
+absl::Status ForgetOldFiles(store::Store& store) {
+  const absl::Time now = store.clock().Now();
+  return ForgetAll(
+      store, [now](Snapshot& snapshot) { return store::HasFilesToForget(snapshot, now); },
+      [](Transaction& transaction) { return store::ForgetFile(transaction); });
+}
+
 std::vector<Scheduler::Task> ScheduledTasks(store::Store& store) {
   return {{.what = "policies whose interval is over can't raise requests",
            .run =
@@ -62,7 +70,9 @@ std::vector<Scheduler::Task> ScheduledTasks(store::Store& store) {
           {.what = "old events can't be forgotten",
            .run = [&store](const IsStopping&) { return ForgetOldEvents(store); }},
           {.what = "old answers can't be forgotten",
-           .run = [&store](const IsStopping&) { return ForgetOldReplies(store); }}};
+           .run = [&store](const IsStopping&) { return ForgetOldReplies(store); }},
+          {.what = "files of deleted tables can't be forgotten",
+           .run = [&store](const IsStopping&) { return ForgetOldFiles(store); }}};
 }
 
 }  // namespace truepose::server

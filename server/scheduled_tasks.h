@@ -17,5 +17,7 @@ std::vector<Scheduler::Task> ScheduledTasks(store::Store& store);
 // left is for the next round.
 absl::Status ForgetOldEvents(store::Store& store);
 absl::Status ForgetOldReplies(store::Store& store);
+// The same for bytes of deleted tables (store/table_files.h), a file a commit.
+absl::Status ForgetOldFiles(store::Store& store);
 
 }  // namespace truepose::server

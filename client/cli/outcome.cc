@@ -60,6 +60,12 @@ absl::Status WithHint(const absl::Status& status, absl::StatusCode code, absl::s
   return hinted;
 }
 
+absl::Status WithFaults(const absl::Status& status, const FaultList& faults) {
+  const auto hint = status.GetPayload(kHintPayload);
+  const absl::Status other = faults.ToStatus(status.code());
+  return hint ? WithHint(other, status.code(), std::string(*hint)) : other;
+}
+
 absl::Status RenameFields(const absl::Status& status, const Renaming& renaming) {
   FaultList faults;
   for (Fault fault : FaultsOf(status)) {
@@ -70,10 +76,7 @@ absl::Status RenameFields(const absl::Status& status, const Renaming& renaming) 
     }
     faults.Add(std::move(fault));
   }
-  if (faults.empty()) return status;
-  const auto hint = status.GetPayload(kHintPayload);
-  const absl::Status renamed = faults.ToStatus(status.code());
-  return hint ? WithHint(renamed, status.code(), std::string(*hint)) : renamed;
+  return faults.empty() ? status : WithFaults(status, faults);
 }
 
 int ExitCodeOf(const absl::Status& status) {

@@ -8,6 +8,7 @@
 #include "absl/status/status.h"
 #include "absl/strings/string_view.h"
 #include "client/cli/console.h"
+#include "core/base/fault.h"
 
 namespace truepose::cli {
 
@@ -31,6 +32,9 @@ absl::Status WithHint(const absl::Status& status, absl::StatusCode code, absl::s
 // is, and so does the hint of what was not found.
 using Renaming = std::vector<std::pair<std::string, std::string>>;
 absl::Status RenameFields(const absl::Status& status, const Renaming& renaming);
+
+// Other faults under the code and the hint of `status`.
+absl::Status WithFaults(const absl::Status& status, const FaultList& faults);
 
 // client/exit_codes.h.
 int ExitCodeOf(const absl::Status& status);

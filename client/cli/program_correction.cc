@@ -43,12 +43,14 @@ absl::StatusOr<std::vector<programs::CorrectedJoints>> CorrectAll(const Targets&
   return corrected;
 }
 
-absl::StatusOr<ProgramCorrection> CorrectionOf(const v1::Nominal& nominal, Answer answer) {
+absl::StatusOr<ProgramCorrection> CorrectionOf(const v1::Nominal& nominal,
+                                               const std::string& digest, Answer answer) {
   if (nominal.kind() == v1::MEASURING) {
     return FaultStatus("--robot", "a measuring robot",
                        "a robot that runs programs: a measuring robot is read, not commanded");
   }
   ProgramCorrection correction;
+  correction.calibration = digest.empty() ? "none" : digest;
   for (const v1::Joint& joint : nominal.joints())
     correction.prismatic.push_back(joint.type() == v1::PRISMATIC);
   correction.correct = [answer = std::move(answer)](const Targets& targets) {
@@ -61,18 +63,20 @@ absl::StatusOr<ProgramCorrection> CorrectionOf(const v1::Nominal& nominal, Answe
 
 absl::StatusOr<ProgramCorrection> LocalCorrection(const v1::Nominal& nominal,
                                                   const v1::Calibration& calibration) {
-  return CorrectionOf(nominal, [&](const v1::CompensateRequest& request) {
+  return CorrectionOf(nominal, calibration.digest(), [&](const v1::CompensateRequest& request) {
     return convert::RunCompensation(nominal, calibration, request);
   });
 }
 
 absl::StatusOr<ProgramCorrection> RemoteCorrection(const client::Client& client,
                                                    const v1::Nominal& nominal,
-                                                   const std::string& calibration) {
-  return CorrectionOf(nominal, [&client, calibration](v1::CompensateRequest request) {
-    request.set_calibration(calibration);
-    return client.Compensate(request);
-  });
+                                                   const v1::Calibration& calibration) {
+  const std::string name = calibration.name();
+  return CorrectionOf(nominal, calibration.digest(),
+                      [&client, name](v1::CompensateRequest request) {
+                        request.set_calibration(name);
+                        return client.Compensate(request);
+                      });
 }
 
 }  // namespace truepose::cli

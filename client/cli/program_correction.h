@@ -16,6 +16,7 @@ namespace truepose::cli {
 struct ProgramCorrection {
   std::vector<bool> prismatic;
   programs::Correction correct;
+  std::string calibration;  // its digest in hex; "none" of one without, such as a simulated truth
 };
 
 // By a calibration from files. Both messages have to outlive it.
@@ -26,7 +27,7 @@ absl::StatusOr<ProgramCorrection> LocalCorrection(const v1::Nominal& nominal,
 // By a server, in as many calls as it takes. `client` has to outlive it.
 absl::StatusOr<ProgramCorrection> RemoteCorrection(const client::Client& client,
                                                    const v1::Nominal& nominal,
-                                                   const std::string& calibration);
+                                                   const v1::Calibration& calibration);
 
 // By a compensation table (`compensation/`), which needs nothing else.
 // @param nominal of the robot that the table has to be of; nullptr = whatever robot it is of.

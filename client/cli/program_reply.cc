@@ -51,7 +51,8 @@ std::string Section(absl::string_view title, const std::vector<Remark>& remarks)
 
 std::string DiffOf(const ProgramFiles& files, const programs::CorrectedProgram& corrected) {
   if (!files.diff) return "";
-  return programs::UnifiedDiff(files.before, corrected.text, files.input, files.output);
+  return programs::UnifiedDiff(files.before, corrected.text, files.input, files.output,
+                               corrected.mark_line);
 }
 
 google::protobuf::Value Numbers(const std::vector<double>& numbers) {
@@ -94,7 +95,8 @@ google::protobuf::Struct ProgramJson(const ProgramFiles& files,
                 {"dialect", Text(std::string(programs::NameOf(files.dialect)))},
                 {"corrected", List(corrected.changes, Changed)},
                 {"uncorrected", Remarks(corrected.uncorrected, lines)},
-                {"passed_through", Remarks(corrected.passed_through, lines)}});
+                {"passed_through", Remarks(corrected.passed_through, lines)},
+                {"mark_line", Number(corrected.mark_line)}});
   if (files.diff) (*json.mutable_fields())["diff"] = Text(AsUtf8(DiffOf(files, corrected)));
   return json;
 }

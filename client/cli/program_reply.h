@@ -19,7 +19,9 @@ struct ProgramFiles {
 std::string ProgramText(const ProgramFiles& files, const programs::CorrectedProgram& corrected);
 
 // {"output","dialect","corrected":[{"line","what","before","after"}],
-//  "uncorrected":[{"line","text","reason"}],"passed_through":[{"line","text","reason"}],"diff"}
+//  "uncorrected":[{"line","text","reason"}],"passed_through":[{"line","text","reason"}],"mark_line","diff"};
+//  lines are those of the
+// input, but for the mark's
 google::protobuf::Struct ProgramJson(const ProgramFiles& files,
                                      const programs::CorrectedProgram& corrected);
 

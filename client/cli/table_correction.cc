@@ -9,6 +9,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "client/cli/program_correction.h"
+#include "client/cli/table_fault.h"
 #include "compensation/correct_by_table.h"
 #include "compensation/table_file.h"
 #include "convert/run.h"
@@ -84,16 +85,16 @@ absl::StatusOr<ProgramCorrection> TableCorrection(const std::string& path,
   if (nominal != nullptr) expectation.nominal_digest = DigestOf(*nominal);
   const auto file = std::make_shared<TableFile>();
   const compensation::TableReport report = TableFile::Map(path.c_str(), expectation, file.get());
-  if (!report.ok()) {
-    return FaultStatus("--table", absl::StrCat(path, ": ", report.message.data()),
-                       "a whole compensation table of this robot");
-  }
+  if (!report.ok()) return TableFaultStatus(report, path, absl::StrCat("--table ", path));
   const Table& table = file->table();
   if (table.arm.measuring) {
     return FaultStatus("--table", absl::StrCat(path, ", of a measuring robot"),
                        "one of a robot that runs programs");
   }
   ProgramCorrection correction;
+  const compensation::Digest& digest = table.header.calibration_digest;
+  correction.calibration = absl::BytesToHexString(
+      absl::string_view(reinterpret_cast<const char*>(digest.data()), digest.size()));
   for (int j = 0; j < table.header.joints; ++j)
     correction.prismatic.push_back(table.arm.nominal.prismatic[static_cast<size_t>(j)]);
   correction.correct = [file](const std::vector<std::vector<double>>& targets)

@@ -23,9 +23,16 @@ void CheckFinite(double value, const std::string& field, FaultList* faults) {
   if (!std::isfinite(value)) faults->Add(field, absl::StrCat(value), "a finite number");
 }
 
+const char* UnitOf(const std::string& field) {
+  if (field.ends_with("_m")) return " m";
+  return field.ends_with("_rad") ? " rad" : "";
+}
+
 void CheckSize(double value, double largest, const std::string& field, FaultList* faults) {
   if (std::abs(value) <= largest) return;
-  faults->Add(field, absl::StrCat(value), absl::StrCat("a finite number of at most ", largest));
+  const char* const unit = UnitOf(field);
+  faults->Add(field, absl::StrCat(value, unit),
+              absl::StrCat("a finite number of at most ", largest, unit));
 }
 
 void CheckVector(const v1::Vector3& vector, const std::string& field, FaultList* faults) {

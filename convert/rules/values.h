@@ -24,6 +24,8 @@ void CheckFinite(double value, const std::string& field, FaultList* faults);
 // instrument (a tracker sees 160 m) and any encoder, and small enough that squares stay finite.
 inline constexpr double kLargestLength_m = 1e4;
 inline constexpr double kLargestJoint = 1e6;  // rad or m
+// " m" or " rad" by the end of a field's name, else "": what stands behind its numbers in faults.
+const char* UnitOf(const std::string& field);
 // A fault for a value that is not finite or larger than `largest`.
 void CheckSize(double value, double largest, const std::string& field, FaultList* faults);
 

@@ -66,11 +66,13 @@ void CheckBox(const BoxDomain& box, const Arm& arm, FaultList* faults) {
   if (!box.approach_B.allFinite() || box.approach_B.norm() < 1e-6)
     faults->Add("box.approach", "no direction", "a vector");
   if (!(box.cone_rad >= 0 && box.cone_rad <= std::numbers::pi))
-    faults->Add("box.cone_rad", absl::StrCat(box.cone_rad), "0 to pi");
+    faults->Add("box.cone_rad", absl::StrCat(box.cone_rad, " rad"),
+                absl::StrCat("0 rad to ", std::numbers::pi, " rad"));
   if (!(std::abs(box.roll_lower_rad) <= 2 * std::numbers::pi &&
         std::abs(box.roll_upper_rad) <= 2 * std::numbers::pi &&
         box.roll_lower_rad <= box.roll_upper_rad))
-    faults->Add("box.min_roll_rad", Text({box.roll_lower_rad, box.roll_upper_rad}),
+    faults->Add("box.min_roll_rad",
+                absl::StrCat(box.roll_lower_rad, " rad to ", box.roll_upper_rad, " rad"),
                 "two angles within a turn, the smaller first");
   CheckReference(box, arm, faults);
 }

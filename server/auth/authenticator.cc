@@ -103,8 +103,14 @@ void Authenticator::RecordUse(store::StoredToken& stored) {
 void Authenticator::Learn(const store::StoredToken& token) {
   const std::lock_guard lock(mutex_);
   const auto [known, is_new] = tokens_.emplace(token.token.name(), token);
-  if (is_new) names_of_hash_.emplace(token.secret_sha256, token.token.name());
+  if (!token.secret_sha256.empty()) LearnSecret(token.secret_sha256, known->second);
   if (!is_new && token.token.has_revoke_time()) known->second.token = token.token;
+}
+
+void Authenticator::LearnSecret(const std::string& secret_sha256, store::StoredToken& token) {
+  names_of_hash_.erase(token.secret_sha256);
+  token.secret_sha256 = secret_sha256;
+  names_of_hash_.emplace(secret_sha256, token.token.name());
 }
 
 bool Authenticator::HasAdmin() const {

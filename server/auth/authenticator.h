@@ -37,7 +37,7 @@ class Authenticator {
   absl::Status Recheck(const Caller& caller) const;
 
   // A token that was committed, new or changed. What was revoked stays so, in whatever order two
-  // commits are told.
+  // commits are told. Its secret is the one told last; "" = as before.
   void Learn(const store::StoredToken& token);
 
   // Whether an admin's token is neither revoked nor expired.
@@ -48,6 +48,7 @@ class Authenticator {
   explicit Authenticator(store::Store* store) : store_(store) {}
   absl::Status CheckHolds(const v1::Token& token) const;
   void RecordUse(store::StoredToken& token);
+  void LearnSecret(const std::string& secret_sha256, store::StoredToken& token);  // holds mutex_
 
   store::Store* const store_;                                   // nullptr = open to all
   mutable std::mutex mutex_;                                    // of all below

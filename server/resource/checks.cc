@@ -18,7 +18,8 @@ namespace {
 
 void CheckNotNegative(double value, const char* field, FaultList& faults) {
   if (std::isfinite(value) && value >= 0.0) return;
-  faults.Add(field, absl::StrCat(value), "a number of 0 or more");
+  const char* const unit = convert::UnitOf(field);
+  faults.Add(field, absl::StrCat(value, unit), absl::StrCat("a number of 0", unit, " or more"));
 }
 
 void CheckFramePose(const v1::Pose& pose, bool given, FaultList& faults) {

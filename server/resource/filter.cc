@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
 #include "core/base/fault.h"
@@ -95,6 +96,17 @@ absl::StatusOr<Predicate> ParseFilter(const std::string& filter, const Descripto
     }
     return true;
   });
+}
+
+std::optional<std::string> TextAskedFor(const std::string& filter, const std::string& field) {
+  const auto tokens = SplitFilter(filter);
+  if (!tokens.ok()) return std::nullopt;
+  for (size_t at = 0; at + 2 < tokens->size(); at += 4) {
+    const FilterToken* term = &(*tokens)[at];
+    const bool plain = term[2].kind == Kind::kText && !absl::StrContains(term[2].text, '*');
+    if (term[0].text == field && term[1].text == "=" && plain) return term[2].text;
+  }
+  return std::nullopt;
 }
 
 }  // namespace truepose::resource

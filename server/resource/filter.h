@@ -6,6 +6,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "absl/status/statusor.h"
@@ -19,5 +20,9 @@ using Predicate = std::function<bool(const google::protobuf::Message&)>;
 // @returns kInvalidArgument with a fault of `filter` that says where and what was expected.
 absl::StatusOr<Predicate> ParseFilter(const std::string& filter,
                                       const google::protobuf::Descriptor* descriptor);
+
+// The text of a term `field = "text"` without wildcards, which all that the filter accepts have;
+// for a look-up that needs to read no others.
+std::optional<std::string> TextAskedFor(const std::string& filter, const std::string& field);
 
 }  // namespace truepose::resource

@@ -2,6 +2,7 @@
 
 #include "server/resource/checks.h"
 #include "server/resource/stored_checks.h"
+#include "server/store/open_request.h"
 #include "truepose/v1/compensation_table.pb.h"
 #include "truepose/v1/plant.pb.h"
 #include "truepose/v1/recalibration.pb.h"
@@ -48,6 +49,14 @@ std::vector<ResourceType> PlantTypes() {
   };
 }
 
+bool HasInterval(const google::protobuf::Message& policy) {
+  return static_cast<const v1::RecalibrationPolicy&>(policy).has_interval();
+}
+
+bool IsOpenRequest(const google::protobuf::Message& request) {
+  return store::IsOpen(static_cast<const v1::RecalibrationRequest&>(request).state());
+}
+
 // What leads to a recalibration.
 std::vector<ResourceType> RecalibrationTypes() {
   return {
@@ -64,7 +73,8 @@ std::vector<ResourceType> RecalibrationTypes() {
        .collection = "recalibrationPolicies",
        .of_robot = true,
        .check = CheckRecalibrationPolicy,
-       .check_within = CheckPolicyWithin},
+       .check_within = CheckPolicyWithin,
+       .is_open = HasInterval},
       {.kind = v1::KIND_RECALIBRATION_REQUEST,
        .prototype = Prototype<v1::RecalibrationRequest>(),
        .collection = "recalibrationRequests",
@@ -72,7 +82,8 @@ std::vector<ResourceType> RecalibrationTypes() {
        .uuid_ids = true,
        .output_only = {"state", "created_by", "session", "job", "calibration", "steps",
                        "readings_taken"},
-       .check = CheckNothing},
+       .check = CheckNothing,
+       .is_open = IsOpenRequest},
       {.kind = v1::KIND_DRIFT_CHECK,
        .prototype = Prototype<v1::DriftCheck>(),
        .collection = "driftChecks",

@@ -25,6 +25,9 @@ struct ResourceType {
   absl::Status (*check_within)(store::Transaction& transaction, const store::ResourceKey& key,
                                const google::protobuf::Message& content,
                                FaultList& faults) = nullptr;
+  // Whether time alone may change it: what looks for those that are due reads no others. nullptr =
+  // never.
+  bool (*is_open)(const google::protobuf::Message& resource) = nullptr;
   // Fields whose change raises `version`; none = it has no version.
   std::vector<std::string> versioned = {};
 };

@@ -57,7 +57,8 @@ absl::Status Put(store::Transaction& transaction, const ResourceType& type,
                  const Message& resource) {
   const std::string name = GetText(resource, "name");
   TRUEPOSE_ASSIGN_OR_RETURN(const store::ResourceKey key, ParseName(type, name, "name"));
-  return store::PutResource(transaction, key, name, resource, IsDeleted(resource));
+  const bool open = type.is_open != nullptr && type.is_open(resource);
+  return store::PutResource(transaction, key, name, resource, IsDeleted(resource), open);
 }
 
 bool HasSameContent(const ResourceType& type, const Message& stored, const Message& content) {
@@ -155,7 +156,10 @@ absl::StatusOr<std::string> List(store::Snapshot& snapshot, const ResourceType& 
   store::ResourceList list{.kind = type.kind,
                            .robot_id = std::nullopt,
                            .show_deleted = asked.show_deleted,
-                           .filter = asked.filter};
+                           .filter = asked.filter,
+                           .only_open = asked.only_open};
+  if (type.kind == v1::KIND_COMPENSATION_TABLE)
+    list.sha256 = TextAskedFor(asked.filter, "sha256").value_or("");
   if (!asked.parent.empty()) {
     TRUEPOSE_ASSIGN_OR_RETURN(list.robot_id, store::ParseRobotName(asked.parent, "parent"));
     TRUEPOSE_RETURN_IF_ERROR(

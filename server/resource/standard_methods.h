@@ -52,6 +52,7 @@ struct ListAsked {
   store::PageRequest page;
   std::string filter;
   bool show_deleted = false;
+  bool only_open = false;  // ResourceType::is_open
 };
 
 // Oldest first. `add` makes room for the next item. @returns the token of the next page.

@@ -1,6 +1,8 @@
 #include "server/services/admin.h"
 
 #include <algorithm>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -9,10 +11,12 @@
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
 #include "server/auth/secret.h"
+#include "server/resource/once.h"
 #include "server/services/administration.h"
 #include "server/services/closures.h"
 #include "server/store/checksum.h"
 #include "server/store/message.h"
+#include "server/store/replies.h"
 #include "server/store/tally.h"
 #include "server/store/tokens.h"
 
@@ -74,20 +78,51 @@ absl::Status CheckAsksForTokens(const CallContext& call) {
                         "a start without it");
 }
 
+// Of a call that was answered before. A secret that nobody has used was never told, or can't be
+// missed: another one takes its place.
+absl::StatusOr<v1::Token> GiveNewSecret(Transaction& transaction, const store::RequestKey& key,
+                                        const std::string& answered, const std::string& hash) {
+  v1::CreateTokenResponse first;
+  if (!first.ParseFromString(answered))
+    return absl::DataLossError("a stored CreateTokenResponse can't be read");
+  TRUEPOSE_ASSIGN_OR_RETURN(const std::optional<v1::Token> token,
+                            store::ReplaceUnusedSecret(transaction, first.token().name(), hash));
+  if (token.has_value()) return *token;
+  return store::Refusal(
+      absl::StatusCode::kAlreadyExists, "request_id",
+      absl::StrCat(key.request_id, ", whose ", first.token().name(), " was used or revoked since"),
+      "another UUID, for another token");
+}
+
+// What is kept of the answer has no secret.
+absl::StatusOr<v1::Token> InsertOnce(Transaction& transaction, const store::RequestKey& key,
+                                     const std::string& hash, const v1::Token& content) {
+  std::optional<std::string> answered;
+  if (!key.request_id.empty()) {
+    TRUEPOSE_ASSIGN_OR_RETURN(answered, store::FindReply(transaction, key));
+  }
+  if (answered.has_value()) return GiveNewSecret(transaction, key, *answered, hash);
+  TRUEPOSE_RETURN_IF_ERROR(CheckKind(transaction, content));
+  v1::CreateTokenResponse kept;
+  TRUEPOSE_ASSIGN_OR_RETURN(*kept.mutable_token(),
+                            store::InsertToken(transaction, store::NewUuid(), hash, content));
+  if (!key.request_id.empty())
+    TRUEPOSE_RETURN_IF_ERROR(store::KeepReply(transaction, key, kept.SerializeAsString()));
+  return kept.token();
+}
+
 // The secret is made outside of the closure, which may run again.
-absl::StatusOr<v1::CreateTokenResponse> Make(const CallContext& call, const v1::Token& content) {
-  TRUEPOSE_ASSIGN_OR_RETURN(std::string secret, auth::NewSecret());
-  const std::string id = store::NewUuid(), hash = auth::HashOf(secret);
-  TRUEPOSE_ASSIGN_OR_RETURN(
-      const v1::Token token,
-      call.store.Write([&](Transaction& transaction) -> absl::StatusOr<v1::Token> {
-        TRUEPOSE_RETURN_IF_ERROR(CheckKind(transaction, content));
-        return store::InsertToken(transaction, id, hash, content);
-      }));
-  call.administration->authenticator.Learn({.token = token, .secret_sha256 = hash});
+absl::StatusOr<v1::CreateTokenResponse> Make(const CallContext& call, const store::RequestKey& key,
+                                             const v1::Token& content) {
+  const std::lock_guard lock(call.administration->new_secret);
   v1::CreateTokenResponse response;
-  *response.mutable_token() = token;
-  response.set_secret(std::move(secret));
+  TRUEPOSE_ASSIGN_OR_RETURN(*response.mutable_secret(), auth::NewSecret());
+  const std::string hash = auth::HashOf(response.secret());
+  TRUEPOSE_ASSIGN_OR_RETURN(*response.mutable_token(),
+                            call.store.Write([&](Transaction& transaction) {
+                              return InsertOnce(transaction, key, hash, content);
+                            }));
+  call.administration->authenticator.Learn({.token = response.token(), .secret_sha256 = hash});
   return response;
 }
 
@@ -150,7 +185,7 @@ absl::StatusOr<v1::CreateTokenResponse> Bootstrap(const CallContext& call,
   token.set_created_by(kBootstrap);
   absl::StatusOr<v1::CreateTokenResponse> response;
   TRUEPOSE_RETURN_IF_ERROR(call.administration->bootstrap.Use(request.secret(), [&] {
-    response = Make(call, token);
+    response = Make(call, {}, token);
     return response.status();
   }));
   return response;
@@ -163,7 +198,7 @@ absl::StatusOr<v1::CreateTokenResponse> CreateToken(const CallContext& call,
   v1::Token token = request.token();
   token.clear_revoke_time();
   token.set_created_by(call.caller.principal);
-  return Make(call, token);
+  return Make(call, resource::KeyOf(call.caller.principal, request, request.request_id()), token);
 }
 
 absl::StatusOr<v1::ListTokensResponse> ListTokens(const CallContext& call,

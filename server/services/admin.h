@@ -17,8 +17,11 @@ absl::StatusOr<v1::CreateTokenResponse> Bootstrap(const CallContext& call,
 // Of `token` counts what a caller decides: principal, kind, admin, expire_time.
 // A principal has one kind for ever: a machine that became a person could approve what it made. An
 // admin is a person, since an admin makes tokens of persons.
+// A repeat of a request with an id makes no second token: as no secret is stored, it gets the first
+// one's with a new secret, and the secret of the first answer ends. One at a time.
 // @returns kInvalidArgument with every fault; kFailedPrecondition when the server asks for no
-// tokens.
+// tokens; kAlreadyExists for a repeat when the token was used or revoked, which never breaks a
+// secret that somebody has.
 absl::StatusOr<v1::CreateTokenResponse> CreateToken(const CallContext& call,
                                                     const v1::CreateTokenRequest& request);
 // Newest first.

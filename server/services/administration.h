@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <mutex>
 #include <string>
 
 #include "absl/time/time.h"
@@ -25,6 +26,9 @@ struct Administration {
   auth::Authenticator& authenticator;
   auth::Bootstrap& bootstrap;
   const ServerFacts facts;
+  // One new secret after the other, so that what the authenticator learns last is what the store
+  // has.
+  std::mutex new_secret = {};
 };
 
 }  // namespace truepose::services

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "absl/time/time.h"
+#include "convert/table_spec.h"
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
 #include "server/resource/resource_name.h"
@@ -14,8 +16,11 @@
 #include "server/services/table_jobs.h"
 #include "server/store/calibrations.h"
 #include "server/store/compensation_tables.h"
+#include "server/store/files.h"
 #include "server/store/jobs.h"
+#include "server/store/message.h"
 #include "server/store/names.h"
+#include "server/store/table_files.h"
 
 namespace truepose::services {
 namespace {
@@ -64,7 +69,7 @@ absl::StatusOr<NewTable> WantedBy(Snapshot& snapshot, const Caller& caller,
   NewTable wanted{.robot = robot.name(),
                   .id = request.compensation_table_id(),
                   .calibration = {},
-                  .spec = robot.table_spec(),
+                  .spec = convert::StoredTableSpec(robot.table_spec()),
                   .created_by = caller.principal,
                   .created_by_machine = caller.is_machine,
                   .priority = request.priority()};
@@ -137,14 +142,31 @@ absl::StatusOr<Table> Delete(Transaction& transaction,
   }
   TRUEPOSE_RETURN_IF_ERROR(
       resource::Delete(transaction, TypeOf<Table>(), request.name(), request.etag(), table));
+  TRUEPOSE_RETURN_IF_ERROR(store::NoteTableFile(transaction, table));
   const std::string robot = request.name().substr(0, request.name().find("/compensationTables/"));
   TRUEPOSE_RETURN_IF_ERROR(RefreshTableToApply(transaction, robot));
   return table;
 }
 
+// Of a deleted table too, for as long as it can be brought back.
+absl::Status CheckHasBytes(Snapshot& snapshot, const Table& table) {
+  if (table.state() != v1::TABLE_READY) return absl::OkStatus();
+  TRUEPOSE_ASSIGN_OR_RETURN(const bool there, store::HasFile(snapshot, table.sha256()));
+  if (there) return absl::OkStatus();
+  return store::Refusal(
+      absl::StatusCode::kFailedPrecondition, "name",
+      absl::StrCat(table.name(), ", which was deleted at ",
+                   absl::FormatTime(absl::RFC3339_sec, store::ToTime(table.delete_time()),
+                                    absl::UTCTimeZone()),
+                   " and whose bytes are gone"),
+      "one deleted within 7 days; built again from the same input it is the same");
+}
+
 absl::StatusOr<Table> Undelete(Transaction& transaction, const std::string& name) {
-  Table table;
+  TRUEPOSE_ASSIGN_OR_RETURN(Table table, GetResource<Table>(transaction, name));
+  TRUEPOSE_RETURN_IF_ERROR(CheckHasBytes(transaction, table));
   TRUEPOSE_RETURN_IF_ERROR(resource::Undelete(transaction, TypeOf<Table>(), name, table));
+  TRUEPOSE_RETURN_IF_ERROR(store::NoteTableFile(transaction, table));
   TRUEPOSE_RETURN_IF_ERROR(
       RefreshTableToApply(transaction, name.substr(0, name.find("/compensationTables/"))));
   return table;

@@ -56,8 +56,17 @@ absl::StatusOr<v1::Session> GetSealed(store::Store& store, const std::string& na
 }
 
 absl::StatusOr<v1::CompensationTable> GetReady(store::Store& store, const std::string& name) {
-  auto table = store.Read([&](Snapshot& snapshot) { return store::GetTable(snapshot, name); });
-  if (!table.ok() || table->state() == v1::TABLE_READY) return table;
+  bool there = false;
+  auto table = store.Read([&](Snapshot& snapshot) -> absl::StatusOr<v1::CompensationTable> {
+    TRUEPOSE_ASSIGN_OR_RETURN(v1::CompensationTable found, store::GetTable(snapshot, name));
+    TRUEPOSE_ASSIGN_OR_RETURN(there, store::HasFile(snapshot, found.sha256()));
+    return found;
+  });
+  if (!table.ok() || (table->state() == v1::TABLE_READY && there)) return table;
+  if (table->state() == v1::TABLE_READY)
+    return store::Refusal(absl::StatusCode::kFailedPrecondition, "name",
+                          absl::StrCat(name, ", which was deleted and whose bytes are gone"),
+                          "a table that is there");
   return store::Refusal(
       absl::StatusCode::kFailedPrecondition, "name",
       absl::StrCat(name, ", which is ", v1::CompensationTableState_Name(table->state())),

@@ -83,7 +83,8 @@ absl::StatusOr<v1::RecalibrationRequest> ContentOf(Transaction& transaction,
 
 absl::StatusOr<std::optional<v1::RecalibrationRequest>> FindOpenRequest(store::Snapshot& snapshot,
                                                                         const std::string& robot) {
-  TRUEPOSE_ASSIGN_OR_RETURN(auto requests, AllOfRobot<v1::RecalibrationRequest>(snapshot, robot));
+  TRUEPOSE_ASSIGN_OR_RETURN(auto requests,
+                            AllOfRobot<v1::RecalibrationRequest>(snapshot, robot, true));
   for (v1::RecalibrationRequest& request : requests)
     if (IsOpen(request.state())) return std::optional(std::move(request));
   return std::optional<v1::RecalibrationRequest>();

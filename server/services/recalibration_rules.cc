@@ -7,6 +7,7 @@
 #include "absl/strings/str_join.h"
 #include "absl/strings/strip.h"
 #include "server/store/message.h"
+#include "server/store/open_request.h"
 
 namespace truepose::services {
 namespace {
@@ -52,9 +53,7 @@ std::string Named(Fits fits) {
 
 }  // namespace
 
-bool IsOpen(v1::RecalibrationState state) {
-  return state >= v1::REQUEST_PENDING && state <= v1::REQUEST_CALIBRATING;
-}
+bool IsOpen(v1::RecalibrationState state) { return store::IsOpen(state); }
 
 absl::Status CheckStep(const v1::RecalibrationRequest& request, v1::RecalibrationState to) {
   const v1::RecalibrationState from = request.state();

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "server/resource/resource_name.h"
 #include "server/services/poses_to_measure.h"
 #include "server/services/recalibration_causes.h"
 #include "server/services/recalibration_requests.h"
@@ -17,8 +18,8 @@ using store::Snapshot;
 using store::Transaction;
 using Raised = std::optional<v1::RecalibrationRequest>;
 
-// Names of all T of the plant for which `is_due(snapshot, item)`. Page by page, so that no look
-// holds its snapshot for long.
+// Names of the open T of the plant for which `is_due(snapshot, item)`. Page by page, so that no
+// look holds its snapshot for long.
 template <typename T, typename IsDue>
 absl::StatusOr<std::vector<std::string>> NamesOfDue(store::Store& store, IsDue is_due,
                                                     const IsStopping& is_stopping) {
@@ -32,7 +33,8 @@ absl::StatusOr<std::vector<std::string>> NamesOfDue(store::Store& store, IsDue i
         store.Read([&](Snapshot& snapshot) -> absl::StatusOr<std::vector<std::string>> {
           next = token;
           std::vector<std::string> found;
-          TRUEPOSE_ASSIGN_OR_RETURN(const auto page, PageOfResources<T>(snapshot, "", kPage, next));
+          TRUEPOSE_ASSIGN_OR_RETURN(const auto page,
+                                    PageOfResources<T>(snapshot, "", kPage, next, true));
           for (const T& item : page) {
             TRUEPOSE_ASSIGN_OR_RETURN(const bool taken, is_due(snapshot, item));
             if (taken) found.push_back(item.name());
@@ -75,8 +77,17 @@ bool IsExpired(const v1::RecalibrationRequest& request, absl::Time now) {
   return IsOpen(request.state()) && store::ToTime(request.expire_time()) <= now;
 }
 
+// A request that was over before the store knew which are open.
+absl::StatusOr<bool> Close(Transaction& transaction, const std::string& name) {
+  TRUEPOSE_ASSIGN_OR_RETURN(const store::ResourceKey key,
+                            resource::ParseName(TypeOf<v1::RecalibrationRequest>(), name, "name"));
+  TRUEPOSE_RETURN_IF_ERROR(store::CloseResource(transaction, key));
+  return false;
+}
+
 absl::StatusOr<bool> Expire(Transaction& transaction, const std::string& name) {
   TRUEPOSE_ASSIGN_OR_RETURN(auto request, GetResource<v1::RecalibrationRequest>(transaction, name));
+  if (!IsOpen(request.state())) return Close(transaction, name);
   if (!IsExpired(request, transaction.now())) return false;
   TRUEPOSE_RETURN_IF_ERROR(AppendStep(transaction, v1::REQUEST_EXPIRED, kServerPrincipal,
                                       "nobody finished it in time", request));
@@ -108,7 +119,7 @@ absl::StatusOr<int> RaiseDueRequests(store::Store& store, const IsStopping& is_s
 absl::StatusOr<int> ExpireRequests(store::Store& store, const IsStopping& is_stopping) {
   const absl::Time now = store.clock().Now();
   const auto is_due = [now](Snapshot&, const v1::RecalibrationRequest& request) {
-    return absl::StatusOr<bool>(IsExpired(request, now));
+    return absl::StatusOr<bool>(IsExpired(request, now) || !IsOpen(request.state()));
   };
   TRUEPOSE_ASSIGN_OR_RETURN(const auto names,
                             NamesOfDue<v1::RecalibrationRequest>(store, is_due, is_stopping));

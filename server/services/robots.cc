@@ -6,7 +6,6 @@
 
 #include "absl/strings/str_cat.h"
 #include "convert/run.h"
-#include "convert/table_spec.h"
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
 #include "google/protobuf/util/message_differencer.h"
@@ -16,6 +15,7 @@
 #include "server/services/live.h"
 #include "server/services/release_rules.h"
 #include "server/services/table_jobs.h"
+#include "server/services/table_spec_check.h"
 #include "server/store/jobs.h"
 #include "server/store/message.h"
 #include "server/store/names.h"
@@ -60,12 +60,6 @@ absl::Status CheckMaySetRelease(const Caller& caller, const v1::Robot& before,
   return same ? absl::OkStatus() : CheckIsAdmin(caller);
 }
 
-// Against the robot's latest nominal.
-void CheckTableSpec(const v1::Nominal& nominal, const v1::Robot& robot, FaultList& faults) {
-  const absl::Status status = convert::ValidateTableSpec(nominal, robot.table_spec());
-  if (!status.ok()) faults.AddAll(status, "robot.table_spec.");
-}
-
 // A robot with another spec than before: which table is to be applied, and one that is not there
 // yet is built.
 absl::StatusOr<v1::Robot> FollowTableSpec(Transaction& transaction, const Caller& caller,
@@ -76,25 +70,32 @@ absl::StatusOr<v1::Robot> FollowTableSpec(Transaction& transaction, const Caller
   return store::GetRobot(transaction, robot.name());
 }
 
+// @param of_spec of the table_spec that the request leaves, if that is another one than before.
 absl::StatusOr<v1::Robot> Update(Transaction& transaction, const Caller& caller,
-                                 const v1::UpdateRobotRequest& request) {
+                                 const v1::UpdateRobotRequest& request,
+                                 const absl::Status& of_spec) {
   TRUEPOSE_ASSIGN_OR_RETURN(v1::Robot robot,
                             GetLiveRobot(transaction, request.robot().name(), "robot.name"));
   TRUEPOSE_RETURN_IF_ERROR(resource::CheckEtag(robot.etag(), request.robot().etag()));
   const v1::Robot before = robot;
   TRUEPOSE_RETURN_IF_ERROR(
       resource::ApplyUpdate(request.robot(), request.update_mask(), OutputOnly(), robot));
-  using google::protobuf::util::MessageDifferencer;
-  const bool same_spec = MessageDifferencer::Equals(before.table_spec(), robot.table_spec()) &&
-                         before.has_table_spec() == robot.has_table_spec();
+  const bool same_spec = HasSameSpec(before, robot);
   FaultList faults;
   CheckSettings(robot, faults);
-  if (!same_spec) CheckTableSpec(robot.nominal_revision().nominal(), robot, faults);
+  if (!same_spec) faults.AddAll(of_spec);
   TRUEPOSE_RETURN_IF_ERROR(faults.ToStatus());
   TRUEPOSE_RETURN_IF_ERROR(CheckMaySetRelease(caller, before, robot));
-  if (MessageDifferencer::Equals(before, robot)) return robot;
+  if (google::protobuf::util::MessageDifferencer::Equals(before, robot)) return robot;
   TRUEPOSE_ASSIGN_OR_RETURN(robot, store::PutRobot(transaction, robot));
   return same_spec ? robot : FollowTableSpec(transaction, caller, robot);
+}
+
+absl::Status CheckSpecOfNew(const CallContext& call, const v1::CreateRobotRequest& request) {
+  v1::Robot robot;
+  if (request.robot().has_table_spec()) *robot.mutable_table_spec() = request.robot().table_spec();
+  *robot.mutable_nominal_revision()->mutable_nominal() = request.nominal();
+  return CheckSpecBuildable(call, robot);
 }
 
 absl::Status CheckNoJobs(Transaction& transaction, const std::string& robot) {
@@ -128,9 +129,10 @@ absl::StatusOr<v1::Robot> CreateRobot(const CallContext& call,
                                       const v1::CreateRobotRequest& request) {
   FaultList faults;
   faults.AddAll(store::CheckRobotId(request.robot_id(), "robot_id"));
-  faults.AddAll(convert::ValidateNominal(request.nominal()), "nominal.");
+  const absl::Status nominal = convert::ValidateNominal(request.nominal());
+  faults.AddAll(nominal, "nominal.");
   CheckSettings(request.robot(), faults);
-  CheckTableSpec(request.nominal(), request.robot(), faults);
+  if (nominal.ok()) faults.AddAll(CheckSpecOfNew(call, request));
   TRUEPOSE_RETURN_IF_ERROR(faults.ToStatus());
   TRUEPOSE_RETURN_IF_ERROR(CheckMaySetRelease(call.caller, v1::Robot(), request.robot()));
   const std::string digest = convert::NominalDigest(request.nominal());
@@ -142,8 +144,9 @@ absl::StatusOr<v1::Robot> CreateRobot(const CallContext& call,
 
 absl::StatusOr<v1::Robot> UpdateRobot(const CallContext& call,
                                       const v1::UpdateRobotRequest& request) {
+  const absl::Status of_spec = CheckSpecBuildable(call, request);
   auto robot = WriteOnce(call, request, [&](Transaction& transaction) {
-    return Update(transaction, call.caller, request);
+    return Update(transaction, call.caller, request, of_spec);
   });
   if (robot.ok()) call.engine.Wake();
   return robot;

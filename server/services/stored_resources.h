@@ -41,10 +41,14 @@ absl::StatusOr<T> GetLiveResource(store::Snapshot& snapshot, const std::string& 
 // that of the page, and then that of the next one.
 template <typename T>
 absl::StatusOr<std::vector<T>> PageOfResources(store::Snapshot& snapshot, const std::string& robot,
-                                               int size, std::string& token) {
+                                               int size, std::string& token,
+                                               bool only_open = false) {
   std::vector<std::unique_ptr<T>> items;
-  const resource::ListAsked asked{
-      .parent = robot, .page = {size, token}, .filter = "", .show_deleted = false};
+  const resource::ListAsked asked{.parent = robot,
+                                  .page = {size, token},
+                                  .filter = "",
+                                  .show_deleted = false,
+                                  .only_open = only_open};
   TRUEPOSE_ASSIGN_OR_RETURN(token, resource::List(snapshot, TypeOf<T>(), asked, [&] {
                               return items.emplace_back(std::make_unique<T>()).get();
                             }));
@@ -53,15 +57,16 @@ absl::StatusOr<std::vector<T>> PageOfResources(store::Snapshot& snapshot, const 
   return page;
 }
 
-// All of a robot.
+// All of a robot. @param only_open those that time alone may change; no others are read.
 template <typename T>
-absl::StatusOr<std::vector<T>> AllOfRobot(store::Snapshot& snapshot, const std::string& robot) {
+absl::StatusOr<std::vector<T>> AllOfRobot(store::Snapshot& snapshot, const std::string& robot,
+                                          bool only_open = false) {
   constexpr int kPage = 1'000;
   std::vector<T> all;
   std::string token;
   do {
     TRUEPOSE_ASSIGN_OR_RETURN(std::vector<T> page,
-                              PageOfResources<T>(snapshot, robot, kPage, token));
+                              PageOfResources<T>(snapshot, robot, kPage, token, only_open));
     for (T& item : page) all.push_back(std::move(item));
   } while (!token.empty());
   return all;

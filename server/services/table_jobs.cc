@@ -157,7 +157,7 @@ absl::Status QueueActiveTable(Transaction& transaction, const v1::Robot& robot,
   NewTable wanted{.robot = robot.name(),
                   .id = "",
                   .calibration = {},
-                  .spec = robot.table_spec(),
+                  .spec = convert::StoredTableSpec(robot.table_spec()),
                   .created_by = principal,
                   .created_by_machine = is_machine};
   TRUEPOSE_ASSIGN_OR_RETURN(wanted.calibration,

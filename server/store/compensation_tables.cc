@@ -11,6 +11,7 @@
 #include "server/store/names.h"
 #include "server/store/resources.h"
 #include "server/store/robots.h"
+#include "server/store/table_files.h"
 
 namespace truepose::store {
 namespace {
@@ -66,6 +67,7 @@ absl::StatusOr<v1::CompensationTable> FinishTable(Transaction& transaction,
   table.set_sha256(file.sha256);
   *table.mutable_header() = file.header;
   TRUEPOSE_RETURN_IF_ERROR(PutTable(transaction, table));
+  TRUEPOSE_RETURN_IF_ERROR(NoteTableFile(transaction, table));
   return table;
 }
 

@@ -46,4 +46,16 @@ absl::StatusOr<std::string> ReadPiece(Snapshot& snapshot, std::string_view sha25
   return found ? row->Blob(0) : std::string();
 }
 
+absl::StatusOr<bool> HasFile(Snapshot& snapshot, std::string_view sha256) {
+  TRUEPOSE_ASSIGN_OR_RETURN(const int64_t file, FileKey(snapshot, sha256));
+  return file != kNone;
+}
+
+absl::Status DropFile(Transaction& transaction, std::string_view sha256) {
+  TRUEPOSE_ASSIGN_OR_RETURN(const int64_t file, FileKey(transaction, sha256));
+  TRUEPOSE_RETURN_IF_ERROR(
+      sql::Run(transaction.sql(), "DELETE FROM file_pieces WHERE file = $1", file));
+  return sql::Run(transaction.sql(), "DELETE FROM files WHERE sequence = $1", file);
+}
+
 }  // namespace truepose::store

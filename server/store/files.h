@@ -23,4 +23,9 @@ absl::Status PutFile(Transaction& transaction, std::string_view sha256, std::str
 absl::StatusOr<std::string> ReadPiece(Snapshot& snapshot, std::string_view sha256,
                                       int64_t position);
 
+absl::StatusOr<bool> HasFile(Snapshot& snapshot, std::string_view sha256);
+
+// With all its pieces; nothing when it isn't there.
+absl::Status DropFile(Transaction& transaction, std::string_view sha256);
+
 }  // namespace truepose::store

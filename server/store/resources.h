@@ -24,8 +24,14 @@ struct ResourceKey {
 };
 
 // Inserts or replaces it, and records the event. `name` is the resource's full name.
+// @param open whether time alone may change it: ResourceList::only_open finds those.
 absl::Status PutResource(Transaction& transaction, const ResourceKey& key, const std::string& name,
-                         const google::protobuf::Message& resource, bool deleted);
+                         const google::protobuf::Message& resource, bool deleted,
+                         bool open = false);
+
+// One that was stored as open before anybody looked; no event, since nothing of the resource
+// changes.
+absl::Status CloseResource(Transaction& transaction, const ResourceKey& key);
 
 // The stored bytes, also of a deleted one; nothing when there is none.
 absl::StatusOr<std::optional<std::string>> FindResource(Snapshot& snapshot, const ResourceKey& key);
@@ -34,7 +40,9 @@ struct ResourceList {
   v1::ResourceKind kind;
   std::optional<std::string> robot_id;  // nothing = of all robots and of the plant
   bool show_deleted = false;
-  std::string filter;  // as asked for: what a page token is bound to
+  std::string filter;       // as asked for: what a page token is bound to
+  bool only_open = false;   // reads no others
+  std::string sha256 = {};  // "" = any; else only tables of this file (table_files.h) are read
 };
 
 // Newest last. `visit` gets the bytes of one and returns whether it belongs to the list; those that

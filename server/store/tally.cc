@@ -2,6 +2,7 @@
 
 #include "absl/status/status.h"
 #include "core/base/status_macros.h"
+#include "server/store/open_request.h"
 #include "server/store/resources.h"
 #include "server/store/sql/query.h"
 #include "truepose/v1/calibration.pb.h"
@@ -19,11 +20,6 @@ absl::StatusOr<int64_t> CountJobs(Snapshot& snapshot, v1::JobState state) {
                          static_cast<int>(state));
 }
 
-bool IsOpen(v1::RecalibrationState state) {
-  return state == v1::REQUEST_PENDING || state == v1::REQUEST_ACKNOWLEDGED ||
-         state == v1::REQUEST_MEASURING || state == v1::REQUEST_CALIBRATING;
-}
-
 absl::StatusOr<int64_t> CountOpenRequests(Snapshot& snapshot) {
   int64_t open = 0;
   // None is taken into a page, so that one look passes all.
@@ -35,6 +31,7 @@ absl::StatusOr<int64_t> CountOpenRequests(Snapshot& snapshot) {
   };
   ResourceList requests;
   requests.kind = v1::KIND_RECALIBRATION_REQUEST;
+  requests.only_open = true;
   TRUEPOSE_RETURN_IF_ERROR(ListResources(snapshot, requests, {}, count).status());
   return open;
 }

@@ -43,6 +43,20 @@ absl::StatusOr<v1::Token> InsertToken(Transaction& transaction, const std::strin
   return token;
 }
 
+absl::StatusOr<std::optional<v1::Token>> ReplaceUnusedSecret(Transaction& transaction,
+                                                             std::string_view name,
+                                                             const std::string& secret_sha256) {
+  TRUEPOSE_ASSIGN_OR_RETURN(const std::string id, ParseTokenName(name));
+  TRUEPOSE_ASSIGN_OR_RETURN(v1::Token token, GetToken(transaction, id));
+  TRUEPOSE_ASSIGN_OR_RETURN(
+      const int64_t last_use,
+      sql::QueryInt64(transaction.sql(), "SELECT last_use FROM tokens WHERE id = $1", id));
+  if (last_use != 0 || token.has_revoke_time()) return std::optional<v1::Token>();
+  TRUEPOSE_RETURN_IF_ERROR(sql::Run(
+      transaction.sql(), "UPDATE tokens SET secret_sha256 = $2 WHERE id = $1", id, secret_sha256));
+  return std::optional(std::move(token));
+}
+
 absl::StatusOr<v1::Token> RevokeToken(Transaction& transaction, std::string_view name) {
   TRUEPOSE_ASSIGN_OR_RETURN(const std::string id, ParseTokenName(name));
   TRUEPOSE_ASSIGN_OR_RETURN(v1::Token token, GetToken(transaction, id));

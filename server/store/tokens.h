@@ -1,6 +1,7 @@
 // Tokens: who may call. Of a secret only its hash is here (server/auth/secret.h).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,13 @@ struct StoredToken {
 // that is there.
 absl::StatusOr<v1::Token> InsertToken(Transaction& transaction, const std::string& id,
                                       const std::string& secret_sha256, v1::Token token);
+
+// Another secret for a token that was never used and is not revoked; nothing for any other.
+// @returns kInvalidArgument for a malformed name, kNotFound; kAlreadyExists for a secret that is
+// there.
+absl::StatusOr<std::optional<v1::Token>> ReplaceUnusedSecret(Transaction& transaction,
+                                                             std::string_view name,
+                                                             const std::string& secret_sha256);
 
 // Sets revoke_time; a revoked one stays as it is.
 // @returns kInvalidArgument for a malformed name, kNotFound.

@@ -133,11 +133,10 @@ TEST_F(AgentProgramTest, LinksNoMathematicsAndNoDatabase) {
     EXPECT_THAT(libraries, ::testing::Not(HasSubstr(word)));
   // Of the core, what reads faults and statuses only; of convert, the rules of readings.
   const std::string symbols =
-      RunProgram(
-          absl::StrCat(
-              "nm -C --defined-only ", TRUEPOSE_AGENT,
-              " | grep 'truepose::Model\\|truepose::Robot::\\|truepose::convert::'"
-              " | grep -vc 'convert::\\((anonymous namespace)::\\)\\?\\(Check\\|Is\\|Are\\)'"))
+      RunProgram(absl::StrCat("nm -C --defined-only ", TRUEPOSE_AGENT,
+                              " | grep 'truepose::Model\\|truepose::Robot::\\|truepose::convert::'"
+                              " | grep -vc 'convert::\\((anonymous "
+                              "namespace)::\\)\\?\\(Check\\|Is\\|Are\\|UnitOf\\)'"))
           .out;
   EXPECT_EQ(symbols, "0\n");
 }

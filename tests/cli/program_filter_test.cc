@@ -72,6 +72,25 @@ TEST_F(ProgramFilterTest, JointsAreThoseOfCompensate) {
   EXPECT_EQ(folder_.Read("pick.script"), kProgram);
 }
 
+// Would catch a program that is corrected twice, so that its robot is off by the whole correction,
+// and a mark that hides from the diff or from `patch`.
+TEST_F(ProgramFilterTest, ACorrectedProgramIsNotCorrectedAgain) {
+  const Ran first = Correct({"--output", output_, "--diff"});
+  ASSERT_EQ(first.code, 0) << first.err;
+  EXPECT_THAT(first.out, HasSubstr("@@ -1,7 +1,8 @@\n+# corrected by truepose, calibration "));
+  const std::string twice = folder_.Path("twice.script");
+  const Ran again = Correct({"--output", twice}, output_);
+  EXPECT_EQ(again.code, 3);
+  EXPECT_THAT(again.err, HasSubstr("out.script:1: found a program that was corrected already, by "
+                                   "calibration "));
+  EXPECT_FALSE(std::filesystem::exists(twice));
+  const Ran wanted = Correct({"--output", twice, "--again", "--json"}, output_);
+  ASSERT_EQ(wanted.code, 0) << wanted.err;
+  EXPECT_EQ(At(OneObject(wanted.out), "mark_line"), "1");
+  const std::string text = folder_.Read("twice.script");
+  EXPECT_NE(text.find("# corrected by truepose", 1), std::string::npos) << "both marks: " << text;
+}
+
 // Would catch a server that gives other joints than --local.
 TEST_F(ProgramFilterTest, AServerGivesTheSameBytes) {
   ASSERT_EQ(Correct({"--output", output_}).code, 0);

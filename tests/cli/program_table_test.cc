@@ -47,6 +47,15 @@ class ProgramTableTest : public ::testing::Test {
     return joints;
   }
 
+  // Names the calibration of which the table is.
+  std::string Mark() const {
+    std::string hex;
+    for (const auto byte : content_.header.calibration_digest)
+      absl::StrAppend(&hex, absl::StrFormat("%02x", std::to_integer<unsigned>(std::byte(byte))));
+    return absl::StrCat("; corrected by truepose, calibration ", hex,
+                        ": correct the original, not this file\n");
+  }
+
   static std::string Ptp(const std::vector<double>& deg) {
     std::string text = "PTP {";
     for (size_t j = 0; j < deg.size(); ++j)
@@ -74,8 +83,8 @@ TEST_F(ProgramTableTest, JointsAreThoseOfTheTable) {
   ASSERT_EQ(corrected.outcome, compensation::Outcome::kOk);
   std::vector<double> expected;
   for (size_t j = 0; j < 6; ++j) expected.push_back(corrected.q[j] * 180 / std::numbers::pi);
-  EXPECT_EQ(folder_.Read("out.src"), Ptp(expected));
-  EXPECT_NE(folder_.Read("out.src"), Ptp(deg));
+  EXPECT_EQ(folder_.Read("out.src"), Mark() + Ptp(expected));
+  EXPECT_NE(folder_.Read("out.src"), Mark() + Ptp(deg));
 }
 
 // Would catch extrapolation, and a reason that names no joint.
@@ -94,12 +103,15 @@ TEST_F(ProgramTableTest, OtherFilesAreRefused) {
   std::string bytes = folder_.Read("t.tpct");
   const Ran other = Correct(program, {"--robot", Example("ur10.yaml")});
   EXPECT_EQ(other.code, 3);
-  EXPECT_THAT(other.err, HasSubstr("--table: found " + table_));
+  EXPECT_THAT(
+      other.err,
+      HasSubstr("--table " + table_ +
+                ": other nominal robot: nominal_digest: found that of another nominal robot"));
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
   folder_.Write("t.tpct", bytes);
   const Ran damaged = Correct(program);
   EXPECT_EQ(damaged.code, 3);
-  EXPECT_THAT(damaged.err, HasSubstr("--table: found " + table_));
+  EXPECT_THAT(damaged.err, HasSubstr("--table " + table_ + ": damaged: "));
 }
 
 TEST_F(ProgramTableTest, OneOfTableAndCalibration) {

@@ -131,6 +131,49 @@ TEST_F(TableFilesTest, RefusesWhatIsWrong) {
   EXPECT_EQ(RunCli({"table", "show", table_}).code, 0);
 }
 
+// Would catch a refusal that says twice what was found, and one that doesn't say what is wrong.
+TEST_F(TableFilesTest, AFileThatIsNoTableHasOneFault) {
+  Build();
+  const std::string bytes = folder_.Read("ur10.tpct");
+  const std::string cut = folder_.Write("cut.tpct", bytes.substr(0, 700));
+  const Ran truncated = RunCli({"table", "show", cut, "--json"});
+  EXPECT_EQ(truncated.code, 3);
+  const auto error = OneObject(truncated.out);
+  EXPECT_EQ(At(error, "error.faults.0.field"), cut + ": truncated");
+  EXPECT_EQ(At(error, "error.faults.0.found"), "700 bytes");
+  EXPECT_THAT(RunCli({"table", "show", folder_.Write("e.tpct", "")}).err,
+              HasSubstr("e.tpct: truncated: found 0 bytes, expected a table"));
+  EXPECT_THAT(RunCli({"table", "show", folder_.Write("n.tpct", std::string(9000, 'x'))}).err,
+              HasSubstr("n.tpct: not a table: magic: found other bytes, expected those of a "
+                        "compensation table"));
+  EXPECT_THAT(
+      RunCli({"table", "show", folder_.Path("none.tpct")}).err,
+      HasSubstr("none.tpct: not opened: found No such file or directory, expected a table"));
+}
+
+// Would catch faults in metres of what was written in millimetres, or a field that was not written.
+TEST_F(TableFilesTest, FaultsAreInTheUnitsThatWereWritten) {
+  const auto error_of = [&](const std::vector<std::string>& sets) {
+    std::vector<std::string> line = Joined({"table", "estimate"}, Sources());
+    for (const std::string& set : sets) line = Joined(line, {"--set", set});
+    const Ran ran = RunCli(line);
+    EXPECT_EQ(ran.code, 3) << ran.out;
+    return ran.err;
+  };
+  EXPECT_THAT(error_of({"position_tolerance_mm=0"}),
+              HasSubstr("--spec: position_tolerance_mm: found 0 mm, expected 1e-05 mm to 1000 mm, "
+                        "or none"));
+  EXPECT_THAT(error_of({"position_tolerance_m=0"}),
+              HasSubstr("--spec: position_tolerance_m: found 0 m, expected 1e-08 m to 1 m"));
+  EXPECT_THAT(error_of({"rotation_tolerance_deg=-1"}),
+              HasSubstr("--spec: rotation_tolerance_deg: found -1 deg, expected 5.72958e-07 deg"));
+  EXPECT_THAT(error_of({"box.max_x_mm=400"}),
+              HasSubstr("--spec: box.max_x_mm: found 400 mm, expected more than 500 mm"));
+  EXPECT_THAT(error_of({"box.cone_deg=200"}),
+              HasSubstr("--spec: box.cone_deg: found 200 deg, expected 0 deg to 180 deg"));
+  EXPECT_THAT(error_of({"box.max_z_mm="}), HasSubstr("--spec: box.max_z_mm: found nothing"));
+}
+
 // Would catch an export that loses nodes or digits.
 TEST_F(TableFilesTest, ExportsEveryNode) {
   Build();

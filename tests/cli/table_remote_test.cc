@@ -141,5 +141,51 @@ TEST_F(TableRemoteTest, DeleteAndUndelete) {
   EXPECT_THAT(Demand({"table", "show", "ur10"}).out, HasSubstr(name));
 }
 
+// Would catch a command that wants a whole resource name typed, takes a table that was not meant,
+// or doesn't say which there are.
+TEST_F(TableRemoteTest, TablesHaveShortNames) {
+  Release();
+  const auto built = [&](const std::string& seed) {
+    return OneObject(
+        Demand({"table", "build", "--robot", "ur10", "--set", "seed=" + seed, "--json"}).out);
+  };
+  const auto first = built("1"), second = built("2");
+  const auto uuid = [](const std::string& name) { return name.substr(name.size() - 36); };
+  const std::string uid = uuid(At(first, "name")), sha256 = At(first, "sha256");
+  for (const std::string& name :
+       {"ur10/" + uid, "ur10/" + uid.substr(0, 8), uid.substr(0, 8), "ur10/" + sha256.substr(0, 12),
+        sha256.substr(0, 12), sha256, At(first, "name")}) {
+    EXPECT_THAT(Demand({"table", "show", name}).out, HasSubstr("Table ur10/" + uid)) << name;
+  }
+  Demand({"table", "download", sha256.substr(0, 10), "--output", folder_.Path("t.tpct")});
+  EXPECT_EQ(store::Sha256Hex(Written()), sha256);
+  const Ran unknown = Remote({"table", "show", "ur10/ffffff"});
+  EXPECT_EQ(unknown.code, 6);
+  EXPECT_THAT(unknown.err, HasSubstr("expected ur10/" + uid));
+  const Ran two = Remote({"table", "delete", "ur10"});
+  EXPECT_EQ(two.code, 3);
+  EXPECT_THAT(two.err, HasSubstr("TABLE: found ur10, of which there are 2 tables"));
+  EXPECT_THAT(two.err, HasSubstr("ur10/" + uuid(At(second, "name"))));
+  Demand({"table", "delete", sha256.substr(0, 12)});
+  Demand({"table", "delete", "ur10"});
+  EXPECT_THAT(Demand({"table", "list"}).out, HasSubstr("No tables"));
+  EXPECT_EQ(Remote({"table", "delete", "ur10"}).code, 6);
+  EXPECT_EQ(Remote({"table", "undelete", "ur10"}).code, 3) << "two of them";
+  Demand({"table", "undelete", "ur10/" + uid.substr(0, 8)});
+  Demand({"table", "undelete", "ur10"});
+}
+
+// Would catch a spec that only its job finds out can't be built, and faults in units of nobody's.
+TEST_F(TableRemoteTest, AFaultySpecIsRefusedWithTheUnitsThatWereWritten) {
+  const Ran zero =
+      Remote({"robot", "update", "ur10", "--table-spec", Spec("position_tolerance_mm: 0\n")});
+  EXPECT_EQ(zero.code, 3);
+  EXPECT_THAT(zero.err, HasSubstr("spec.yaml: position_tolerance_mm: found 0 mm"));
+  const Ran set =
+      Remote({"robot", "update", "ur10", "--set", "table_spec.position_tolerance_mm=0"});
+  EXPECT_EQ(set.code, 3);
+  EXPECT_THAT(set.err, HasSubstr("robot.table_spec.position_tolerance_mm: found 0 mm"));
+}
+
 }  // namespace
 }  // namespace truepose::cli

@@ -20,13 +20,11 @@ namespace {
 
 using google::protobuf::MethodDescriptor;
 
-// A secret is shown once: a repeat would make another token.
-bool ShowsASecret(const MethodDescriptor& method) {
-  return method.name() == "Bootstrap" || method.name() == "CreateToken";
-}
+// Its own secret is used up by the first call.
+bool IsForOnce(const MethodDescriptor& method) { return method.name() == "Bootstrap"; }
 
 bool IsRepeatable(const MethodDescriptor& method) {
-  return !method.client_streaming() && !method.server_streaming() && !ShowsASecret(method);
+  return !method.client_streaming() && !method.server_streaming() && !IsForOnce(method);
 }
 
 std::string Entry(const MethodDescriptor& method) {

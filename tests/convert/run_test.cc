@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "absl/strings/match.h"
 #include "core/base/fault.h"
 #include "tests/convert/samples.h"
 
@@ -211,11 +212,38 @@ TEST(RunCompensation, OneBadTargetDoesNotSpoilTheRest) {
   const auto response = RunCompensation(input.nominal(), MustRun(input), request);
   ASSERT_TRUE(response.ok()) << response.status();
   EXPECT_EQ(response->targets(0).fault(), "");
+  EXPECT_EQ(response->targets(0).outcome(), v1::COMPENSATION_OK);
+  EXPECT_FALSE(response->targets(0).has_joint());
   EXPECT_THAT(response->targets(1).fault(), HasSubstr("beyond its limits"));
+  EXPECT_EQ(response->targets(1).outcome(), v1::COMPENSATION_BEYOND_LIMIT);
+  EXPECT_TRUE(response->targets(1).has_joint());
+  EXPECT_EQ(response->targets(1).joint(), 0);
   EXPECT_EQ(response->targets(1).joints_size(), 0);
   EXPECT_EQ(response->targets(1).row(), 1);
   EXPECT_EQ(response->targets(2).fault(), "");
   EXPECT_THAT(response->targets(3).fault(), HasSubstr("out of reach"));
+  EXPECT_EQ(response->targets(3).outcome(), v1::COMPENSATION_UNREACHABLE);
+}
+
+// Would catch a program that has to read prose to learn why: the elbow stretched out, where the
+// corrections of the wrist's joints grow without bound.
+TEST(RunCompensation, NearASingularityIsSaidInOneWord) {
+  const v1::CalibrationInput input = SampleInput(60);
+  const v1::Calibration calibration = MustRun(input);
+  v1::CompensateRequest request;
+  for (double elbow : {0.0, 1e-5, 1e-4, 1e-3}) {
+    v1::CompensationTarget* target = request.add_targets();
+    for (double q : {0.1, 0.6, elbow, 0.4, 1e-9, 0.2}) target->add_joints(q);
+  }
+  const auto response = RunCompensation(input.nominal(), calibration, request);
+  ASSERT_TRUE(response.ok()) << response.status();
+  int singular = 0;
+  for (const v1::CompensatedTarget& target : response->targets()) {
+    const bool refused = target.outcome() == v1::COMPENSATION_NEAR_SINGULAR;
+    EXPECT_EQ(refused, absl::StrContains(target.fault(), "singularity")) << target.fault();
+    singular += refused ? 1 : 0;
+  }
+  EXPECT_GT(singular, 0) << response->DebugString();
 }
 
 // A measuring robot: joints in, the true tip out. Correcting joints instead would be off by twice
@@ -236,7 +264,9 @@ TEST(RunCompensation, MeasuringRobotGivesItsTip) {
   ASSERT_TRUE(response.ok()) << response.status();
   EXPECT_EQ(response->targets(0).joints_size(), 0);
   EXPECT_GT(response->targets(0).position_correction_mm(), 0.05);
+  EXPECT_EQ(response->targets(0).outcome(), v1::COMPENSATION_OK);
   EXPECT_THAT(response->targets(1).fault(), HasSubstr("measuring robot"));
+  EXPECT_EQ(response->targets(1).outcome(), v1::COMPENSATION_INVALID_TARGET);
   // With no error at all the answer is the nominal tip; the distance of the two is the correction
   // that was told.
   v1::Calibration none = calibration;

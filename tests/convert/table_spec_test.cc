@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 #include <google/protobuf/text_format.h>
 
+#include "absl/strings/str_cat.h"
 #include "convert/run.h"
+#include "convert/table_domain.h"
 #include "core/base/fault.h"
 
 namespace truepose::convert {
@@ -26,7 +28,7 @@ std::vector<std::string> Fields(const absl::Status& status) {
 
 // A box, with more of its fields as text.
 std::string Box(const std::string& more = "") {
-  return "box { max_x_m: 1 max_y_m: 1 max_z_m: 1 cone_rad: 0.5 "
+  return "box { min_x_m: 0 min_y_m: 0 min_z_m: 0 max_x_m: 1 max_y_m: 1 max_z_m: 1 cone_rad: 0.5 "
          "reference_joints: [0, 0, 0, 0, 0] " +
          more + " }";
 }
@@ -43,15 +45,41 @@ TEST(TableSpec, TheUsualIsAccepted) {
 // it is.
 TEST(TableSpec, EveryFaultComesAtOnce) {
   const auto spec = Spec(
-      "box { min_x_m: 1 max_x_m: 0 max_y_m: nan max_z_m: 1 cone_rad: 4 approach_x: 2 "
+      "box { min_x_m: 1 max_x_m: 0 min_y_m: 0 max_y_m: nan max_z_m: 1 cone_rad: 4 approach_x: 2 "
       "min_roll_rad: 1 max_roll_rad: 0.5 } position_tolerance_m: -1 rotation_tolerance_rad: 1e-12 "
       "smallest_singular_value: 1 verification_points: 10 largest_bytes: 1000000000");
   EXPECT_THAT(
       Fields(ValidateTableSpec(spec)),
-      UnorderedElementsAre("box.max_x_m", "box.max_y_m", "box.max_y_m", "box.cone_rad",
-                           "box.approach_x", "box.max_roll_rad", "box.reference_joints",
-                           "position_tolerance_m", "rotation_tolerance_rad",
+      UnorderedElementsAre("box.max_x_m", "box.max_y_m", "box.max_y_m", "box.min_z_m",
+                           "box.cone_rad", "box.approach_x", "box.max_roll_rad",
+                           "box.reference_joints", "position_tolerance_m", "rotation_tolerance_rad",
                            "smallest_singular_value", "verification_points", "largest_bytes"));
+}
+
+// Would catch an edge that nobody gave and that counts as 0.
+TEST(TableSpec, EveryEdgeOfABoxIsGiven) {
+  for (const char* edge : {"min_x_m", "min_y_m", "min_z_m", "max_x_m", "max_y_m", "max_z_m"}) {
+    v1::CompensationTableSpec spec = Spec(Box());
+    const auto* field = v1::BoxDomain::descriptor()->FindFieldByName(edge);
+    spec.mutable_box()->GetReflection()->ClearField(spec.mutable_box(), field);
+    EXPECT_THAT(Fields(ValidateTableSpec(spec)), UnorderedElementsAre(std::string("box.") + edge));
+    const auto stored = StoredTableSpec(spec);
+    EXPECT_TRUE(ValidateTableSpec(stored).ok() == std::string(edge).starts_with("min"))
+        << edge << ": 0 to 0 is no range";
+    EXPECT_EQ(TableInputDigest("c", "n", spec), TableInputDigest("c", "n", stored));
+  }
+}
+
+// Would catch a tolerance of nothing that silently becomes the default.
+TEST(TableSpec, TolerancesAreAboveZero) {
+  for (const char* given : {"0", "-1", "-0.0", "inf", "nan", "2"}) {
+    EXPECT_THAT(Fields(ValidateTableSpec(Spec(absl::StrCat("position_tolerance_m: ", given)))),
+                UnorderedElementsAre("position_tolerance_m"))
+        << given;
+    EXPECT_THAT(Fields(ValidateTableSpec(Spec(absl::StrCat("rotation_tolerance_rad: ", given)))),
+                UnorderedElementsAre("rotation_tolerance_rad"))
+        << given;
+  }
 }
 
 // Would catch a range beyond what the joint can do, or for another robot.
@@ -96,6 +124,26 @@ TEST(TableSpec, DigestsTellSpecsApart) {
                                            Box("min_roll_rad: -1 max_roll_rad: 1")};
   for (const std::string& text : others) all.insert(digest(text));
   EXPECT_EQ(all.size(), 3 + others.size());
+}
+
+// Would catch a spec that only its job finds out can't be built: beyond where the arm reaches, in a
+// configuration that it can't take.
+TEST(TableDomain, TheNominalChainTellsWhatCannotBe) {
+  const v1::Nominal nominal = MeasuringRobot();
+  EXPECT_TRUE(CheckTableDomain(nominal, {}).ok());
+  EXPECT_TRUE(CheckTableDomain(nominal, Spec(Box("approach_x: 1"))).ok())
+      << CheckTableDomain(nominal, Spec(Box("approach_x: 1")));
+  v1::CompensationTableSpec far = Spec(Box());
+  far.mutable_box()->set_min_x_m(100);
+  far.mutable_box()->set_max_x_m(101);
+  EXPECT_THAT(Fields(CheckTableDomain(nominal, far)), UnorderedElementsAre("box"));
+  v1::Nominal limited = nominal;
+  limited.mutable_joints(1)->set_lower(-1);
+  limited.mutable_joints(1)->set_upper(1);
+  v1::CompensationTableSpec bent = Spec(Box());
+  bent.mutable_box()->set_reference_joints(1, 2);
+  EXPECT_THAT(Fields(CheckTableDomain(limited, bent)),
+              UnorderedElementsAre("box.reference_joints[1]"));
 }
 
 }  // namespace

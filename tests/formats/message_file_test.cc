@@ -37,13 +37,13 @@ TEST(MessageFile, ReadsEachKindOfFieldAndTellsItsPath) {
   EXPECT_EQ(policy.temperature_step_k(), 5.0);
   EXPECT_EQ(policy.poses(), 40);
   EXPECT_THAT(policy.event_kinds(), ElementsAre(v1::COLLISION, v1::MOTOR_CHANGE));
-  EXPECT_THAT(given, ::testing::UnorderedElementsAre("interval", "temperature_step_k",
-                                                     "event_kinds", "poses"));
+  EXPECT_THAT(given.paths, ::testing::UnorderedElementsAre("interval", "temperature_step_k",
+                                                           "event_kinds", "poses"));
   v1::Robot robot;
-  given.clear();
+  given = {};
   ASSERT_TRUE(ParseMessageFile("limits: {drift_rms_mm: 0.3}", "r.yaml", robot, given).ok());
   EXPECT_EQ(robot.limits().drift_rms_mm(), 0.3) << "the field itself is in mm";
-  EXPECT_THAT(given, ElementsAre("limits.drift_rms_mm"));
+  EXPECT_THAT(given.paths, ElementsAre("limits.drift_rms_mm"));
 }
 
 // Would catch a pose of which an update changes half, or whose missing rotation is no rotation.
@@ -54,7 +54,7 @@ TEST(MessageFile, APoseIsOneField) {
   EXPECT_DOUBLE_EQ(target.pose().x_m(), 0.025);
   EXPECT_DOUBLE_EQ(target.pose().z_m(), 0.08);
   EXPECT_EQ(target.pose().qw(), 1.0);
-  EXPECT_THAT(given, ElementsAre("pose"));
+  EXPECT_THAT(given.paths, ElementsAre("pose"));
 }
 
 // Would catch degrees stored as radians, and poses of a set that are dropped.
@@ -102,8 +102,9 @@ TEST(MessageFile, FieldsOneByOne) {
                   .ok());
   EXPECT_EQ(robot.limits().change_mm(), 1.0);
   EXPECT_EQ(robot.display_name(), "Hall 3: left");
-  EXPECT_THAT(given, ::testing::UnorderedElementsAre("limits.drift_rms_mm", "limits.change_mm",
-                                                     "display_name", "release_policy"));
+  EXPECT_THAT(given.paths,
+              ::testing::UnorderedElementsAre("limits.drift_rms_mm", "limits.change_mm",
+                                              "display_name", "release_policy"));
   EXPECT_THAT(FieldsOf(SetMessageFields({{"limits.drift_rms_mm", "x"}}, "--set", robot, given)),
               ElementsAre("--set limits.drift_rms_mm"));
 }
@@ -118,6 +119,22 @@ TEST(MessageFile, NumbersWithoutASign) {
   EXPECT_EQ(DescribeMessage(spec).back().text, "7");
   EXPECT_THAT(FieldsOf(ParseMessageFile("seed: -1", "s.yaml", spec, given)),
               ElementsAre("s.yaml:1: seed"));
+}
+
+// Would catch a field of which nobody knows in which unit it was written.
+TEST(MessageFile, FieldsInSiUnitsAreToldApart) {
+  v1::CompensationTableSpec spec;
+  GivenFields given;
+  ASSERT_TRUE(ParseMessageFile("box: {min_x_mm: 5, max_x_m: 1, cone_rad: 0.5, min_roll_deg: 3}\n"
+                               "position_tolerance_m: 1e-5\nseed: 3",
+                               "s.yaml", spec, given)
+                  .ok());
+  EXPECT_THAT(given.in_si, ::testing::UnorderedElementsAre("box.max_x_m", "box.cone_rad",
+                                                           "position_tolerance_m"));
+  given = {};
+  ASSERT_TRUE(
+      SetMessageFields({{"box.max_y_m", "1"}, {"box.max_z_mm", "1"}}, "--set", spec, given).ok());
+  EXPECT_THAT(given.in_si, ElementsAre("box.max_y_m"));
 }
 
 // Would catch a text that can't be given back as it is shown, or in other units.

@@ -8,6 +8,7 @@
 #include "client/download.h"
 #include "client/wait_for_job.h"
 #include "client/watch.h"
+#include "core/base/fault.h"
 #include "server/store/checksum.h"
 #include "tests/integration/server_fixture.h"
 #include "tests/server/testing/expect_status.h"
@@ -127,6 +128,28 @@ TEST_F(TableOverServer, IsFoundByItsDigest) {
   ASSERT_THAT(found, IsOk());
   ASSERT_EQ(found->compensation_tables_size(), 1);
   EXPECT_EQ(found->compensation_tables(0).name(), all->compensation_tables(1).name());
+}
+
+// Would catch a spec whose table is too large, which only the job of the next activation finds out.
+TEST_F(TableOverServer, ASpecTooFineForItsSizeIsRefusedWhenItIsSet) {
+  runner_.estimate_table =
+      [](const v1::CompensationTableInput& input) -> absl::StatusOr<v1::CompensationTableEstimate> {
+    EXPECT_EQ(input.calibration().name(), "robots/arm/calibrations/1");
+    FaultList faults;
+    faults.Add("largest_bytes", "a table of 900 MB", "at most 64 MB");
+    faults.Add("calibration.report.verdict", "of another concern", "no fault of the spec");
+    return faults.ToStatus(absl::StatusCode::kFailedPrecondition);
+  };
+  Restart();
+  Activate();
+  v1::UpdateRobotRequest request;
+  request.mutable_robot()->set_name("robots/arm");
+  request.mutable_robot()->mutable_table_spec()->set_position_tolerance_m(1e-7);
+  request.mutable_update_mask()->add_paths("table_spec");
+  v1::Robot robot;
+  EXPECT_THAT(NewClient().CallMethod("truepose.v1.RobotService/UpdateRobot", request, &robot),
+              testing::HasFaultsAt(std::vector<std::string>{"robot.table_spec.largest_bytes"}));
+  EXPECT_EQ(NewClient().ListCompensationTables({})->compensation_tables_size(), 0);
 }
 
 // Would catch an estimate that builds, or is not given.

@@ -110,6 +110,26 @@ TEST_F(TokensTest, AnotherStartKnowsTheSameTokens) {
   EXPECT_FALSE(std::filesystem::exists(options_.database + ".bootstrap"));
 }
 
+// Would catch a call whose answer got lost and whose repeat, after a restart too, leaves two
+// tokens.
+TEST_F(TokensTest, ARepeatMakesNoSecondToken) {
+  v1::CreateTokenRequest request;
+  request.set_request_id(Uuid(99));
+  request.mutable_token()->set_principal("dora");
+  request.mutable_token()->set_kind(v1::PERSON);
+  const auto lost = As("admin").CreateToken(request);
+  ASSERT_THAT(lost, IsOk());
+  const int tokens = As("admin").ListTokens({})->tokens_size();
+  Restart();
+  const auto again = As("admin").CreateToken(request);
+  ASSERT_THAT(again, IsOk());
+  EXPECT_EQ(again->token().name(), lost->token().name());
+  EXPECT_EQ(As("admin").ListTokens({})->tokens_size(), tokens);
+  EXPECT_THAT(WithSecret(again->secret()).ListRobots({}), IsOk());
+  EXPECT_THAT(WithSecret(lost->secret()).ListRobots({}),
+              HasCode(absl::StatusCode::kUnauthenticated));
+}
+
 // Would catch a server that nobody can get into any more when all admins' tokens are lost.
 TEST_F(TokensTest, AStartWithBootstrapLetsAnotherAdminIn) {
   options_.bootstrap = true;

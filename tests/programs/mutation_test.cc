@@ -7,6 +7,7 @@
 
 #include "programs/correct.h"
 #include "programs/dialect.h"
+#include "programs/mark.h"
 #include "tests/formats/damage.h"
 #include "tests/programs/samples.h"
 
@@ -57,6 +58,22 @@ TEST_P(MutationTest, DamagedProgramsKeepTheirBytes) {
   }
   // A mutator that leaves nothing to correct would test nothing.
   EXPECT_GT(corrected_programs, kCases / 2);
+}
+
+// Would catch a mark that is understood as a part of what stands around it, or is not seen again.
+TEST_P(MutationTest, DamagedProgramsTakeAMark) {
+  const std::string name = GetParam(), whole = Golden(name);
+  const Dialect dialect = *DialectOfFile(name);
+  Mutator mutator(11);
+  for (int i = 0; i < kCases && !HasFailure(); ++i) {
+    const std::string text = mutator.Damage(whole);
+    const auto marked = AddMark(text, dialect, 6, "ab12");
+    ASSERT_TRUE(marked.ok()) << marked.status() << "\n" << text;
+    const auto found = FindMark(marked->text, dialect);
+    ASSERT_TRUE(found.has_value()) << marked->text;
+    EXPECT_EQ(found->line, marked->line);
+    EXPECT_FALSE(FindMark(text, dialect).has_value());
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Dialects, MutationTest,

@@ -13,6 +13,7 @@
 #include "tests/store/testing/fake_clock.h"
 #include "tests/store/testing/faulty_connection.h"
 #include "tests/store/testing/samples.h"
+#include "truepose/v1/watch.pb.h"
 
 namespace truepose::store {
 namespace {
@@ -82,6 +83,36 @@ TEST(Migrations, AnUpgradeKeepsWhatIsThere) {
   ASSERT_TRUE(connection->Execute("INSERT INTO robots VALUES ('ur10', x'0a')").ok());
   ASSERT_TRUE(MigrateTo(*connection, EmbeddedMigrations()).ok());
   EXPECT_EQ(*sql::QueryInt64(*connection, "SELECT COUNT(*) FROM robots WHERE id = 'ur10'"), 1);
+}
+
+// Catches a table of an older store whose bytes are never found by their digest or never go, and a
+// request that nobody looks at any more.
+TEST(Migrations, AnUpgradeNotesFilesAndWhatMayBeOpen) {
+  const auto connection = Memory();
+  ASSERT_TRUE(MigrateTo(*connection, EmbeddedMigrations().first(10)).ok());
+  const std::string digest(64, 'a');
+  const auto add = [&](int number, int kind, bool deleted, const std::string& message) {
+    ASSERT_TRUE(sql::Run(*connection,
+                         "INSERT INTO resources (sequence, kind, robot_id, id, deleted, message) "
+                         "VALUES ($1, $2, 'ur10', $1, $3, $4)",
+                         number, kind, deleted ? 1 : 0, sql::BlobView{message})
+                    .ok());
+  };
+  add(1, v1::KIND_COMPENSATION_TABLE, false, std::string("\x01\0J@", 4) + digest + "\x02");
+  add(2, v1::KIND_COMPENSATION_TABLE, true, "J@" + digest);
+  add(3, v1::KIND_COMPENSATION_TABLE, false, "one that is building");
+  add(4, v1::KIND_RECALIBRATION_REQUEST, false, "");
+  add(5, v1::KIND_RECALIBRATION_POLICY, false, "");
+  ASSERT_TRUE(sql::Run(*connection, "INSERT INTO files VALUES (1, $1, 3)", digest).ok());
+  ASSERT_TRUE(MigrateTo(*connection, EmbeddedMigrations()).ok());
+  const auto count = [&](const std::string& what) {
+    return *sql::QueryInt64(*connection, "SELECT COUNT(*) FROM " + what);
+  };
+  EXPECT_EQ(count("table_files"), 2);
+  EXPECT_EQ(count("table_files WHERE resource = 1 AND deleted_us = 0"), 1);
+  EXPECT_EQ(count("table_files WHERE resource = 2 AND deleted_us > 1700000000000000"), 1);
+  EXPECT_EQ(count("resources WHERE open = 1 AND sequence IN (4, 5)"), 2);
+  EXPECT_EQ(count("resources WHERE open = 1"), 2);
 }
 
 // Catches a half applied migration: a fault at each statement leaves a whole version, and the next

@@ -15,10 +15,12 @@
 #include "client/cli/reply.h"
 #include "client/cli/same_file.h"
 #include "client/cli/verdict.h"
+#include "core/base/fault.h"
 #include "core/base/status_macros.h"
 #include "formats/text_file.h"
 #include "programs/correct.h"
 #include "programs/dialect.h"
+#include "programs/mark.h"
 
 namespace truepose::cli {
 namespace {
@@ -27,7 +29,7 @@ namespace {
 constexpr size_t kMostBytes = 32 << 20;
 
 struct Options {
-  bool local = false, keep_uncorrected = false, diff = false;
+  bool local = false, keep_uncorrected = false, diff = false, again = false;
   std::string program, dialect, calibration, table, robot, output;
   formats::UrdfEnds ends;
   double largest_change_deg = 5.0;
@@ -52,6 +54,16 @@ absl::StatusOr<programs::CorrectOptions> CorrectOptionsOf(const Options& options
       .largest_change_rad = options.largest_change_deg * std::numbers::pi / 180.0};
 }
 
+// What is corrected twice is off by the correction.
+absl::Status CheckNotCorrected(const Options& options, const ProgramFiles& files) {
+  const auto mark = programs::FindMark(files.before, files.dialect);
+  if (!mark.has_value() || options.again) return absl::OkStatus();
+  return FaultStatus(
+      absl::StrCat(options.program, ":", mark->line),
+      absl::StrCat("a program that was corrected already, by calibration ", mark->calibration),
+      "the original program; or --again, which adds this correction to that one");
+}
+
 absl::StatusOr<ProgramFiles> LoadProgram(const Options& options) {
   TRUEPOSE_RETURN_IF_ERROR(CheckOtherFile(options.program, options.output, "--output"));
   ProgramFiles files{options.program, options.output, {}, "", options.diff};
@@ -59,6 +71,7 @@ absl::StatusOr<ProgramFiles> LoadProgram(const Options& options) {
   absl::StatusOr<std::string> text = formats::ReadTextFile(options.program, kMostBytes);
   if (!text.ok()) return AsInputFault(text.status());
   files.before = *std::move(text);
+  TRUEPOSE_RETURN_IF_ERROR(CheckNotCorrected(options, files));
   return files;
 }
 
@@ -73,7 +86,8 @@ void WarnOfRest(const Console& console, const programs::CorrectedProgram& correc
 
 absl::Status CorrectFile(const Invocation& invocation, const Options& options,
                          const ProgramFiles& files, const ProgramCorrection& correction) {
-  TRUEPOSE_ASSIGN_OR_RETURN(const programs::CorrectOptions limits, CorrectOptionsOf(options));
+  TRUEPOSE_ASSIGN_OR_RETURN(programs::CorrectOptions limits, CorrectOptionsOf(options));
+  limits.calibration = correction.calibration;
   TRUEPOSE_ASSIGN_OR_RETURN(OutputFile output, OutputFile::Create(options.output, "--output"));
   TRUEPOSE_ASSIGN_OR_RETURN(
       const programs::CorrectedProgram corrected,
@@ -106,7 +120,7 @@ absl::Status CorrectOnServer(const Invocation& invocation, const Options& option
       invocation, kCalibrationHint, [&](const client::Client& client) -> absl::Status {
         TRUEPOSE_ASSIGN_OR_RETURN(const CalibratedRobot robot, GetCalibratedRobot(client, name));
         TRUEPOSE_ASSIGN_OR_RETURN(const ProgramCorrection correction,
-                                  RemoteCorrection(client, robot.nominal, name));
+                                  RemoteCorrection(client, robot.nominal, robot.calibration));
         WarnOfVerdict(invocation.console, robot.calibration.report());
         return CorrectFile(invocation, options, files, correction);
       });
@@ -132,10 +146,12 @@ absl::Status Correct(const Invocation& invocation, const Options& options) {
 }
 
 constexpr char kFooter[] =
-    "Only the numbers of joint targets change; all else stays byte for byte. Poses, calculated\n"
-    "targets and whatever else was not understood are listed (docs/programs.md). A target that "
-    "can't\n"
-    "be corrected refuses the program: no file is written.\n\nExamples:\n"
+    "Only the numbers of joint targets change, and a comment line at the top says so; all else "
+    "stays\n"
+    "byte for byte. Poses, calculated targets and whatever else was not understood are listed\n"
+    "(docs/programs.md). A target that can't be corrected, and a program that was corrected "
+    "before,\n"
+    "is refused: no file is written.\n\nExamples:\n"
     "  truepose program correct weld.src --calibration kr10#3 --output corrected/weld.src --diff\n"
     "  truepose program correct pick.script --local --robot ur10.yaml --calibration ur10.json \\\n"
     "      --output pick_corrected.script\n"
@@ -161,6 +177,8 @@ void AddCorrect(const Command& program) {
       .Option("--diff", "", &options->diff, "Show what changed, as a unified diff")
       .Option("--keep-uncorrected", "", &options->keep_uncorrected,
               "Leave and list targets that can't be corrected instead of refusing the program")
+      .Option("--again", "", &options->again,
+              "Also a program that says that it was corrected already")
       .Option("--largest-change", "DEG", &options->largest_change_deg,
               "A joint may change by so much; more means a singularity. Default 5")
       .Footer(kFooter)

@@ -14,6 +14,7 @@
 #include "client/cli/remote.h"
 #include "client/cli/reply.h"
 #include "client/cli/resource_text.h"
+#include "client/cli/written_units.h"
 #include "core/base/status_macros.h"
 #include "google/protobuf/field_mask.pb.h"
 #include "google/protobuf/util/field_mask_util.h"
@@ -78,7 +79,8 @@ absl::Status Create(const Invocation& invocation, const ResourceKind& kind,
     formats::GivenFields given;
     TRUEPOSE_RETURN_IF_ERROR(ReadContent(client, kind, name, options.content, /*needed=*/false,
                                          call.content(kind), given));
-    return RenameFields(RunAndReply(invocation, kind, client, call), {{id_field, "NAME"}});
+    return InWrittenUnits(
+        RenameFields(RunAndReply(invocation, kind, client, call), {{id_field, "NAME"}}), given);
   });
 }
 
@@ -105,8 +107,8 @@ absl::Status Update(const Invocation& invocation, const ResourceKind& kind,
     const auto* mask = call.request->GetDescriptor()->FindFieldByName("update_mask");
     auto* paths = static_cast<google::protobuf::FieldMask*>(
         call.request->GetReflection()->MutableMessage(call.request.get(), mask));
-    for (const std::string& path : given) paths->add_paths(path);
-    return RunAndReply(invocation, kind, client, call);
+    for (const std::string& path : given.paths) paths->add_paths(path);
+    return InWrittenUnits(RunAndReply(invocation, kind, client, call), given);
   });
 }
 

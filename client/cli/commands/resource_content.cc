@@ -98,29 +98,31 @@ absl::Status ReadContent(const client::Client& client, const ResourceKind& kind,
                          Message& content, formats::GivenFields& given) {
   if (!options.file.empty()) {
     TRUEPOSE_RETURN_IF_ERROR(AsInputFault(formats::ReadMessageFile(options.file, content, given)));
-    std::erase_if(given, [&](const std::string& path) { return IsOfServer(kind, path); });
+    std::erase_if(given.paths, [&](const std::string& path) { return IsOfServer(kind, path); });
   }
   TRUEPOSE_ASSIGN_OR_RETURN(const auto fields, SplitSets(kind, options.set));
   TRUEPOSE_RETURN_IF_ERROR(formats::SetMessageFields(fields, "--set", content, given));
   if (!options.features.empty()) {
     TRUEPOSE_ASSIGN_OR_RETURN(*static_cast<v1::RegisteredFixture&>(content).mutable_fixture(),
                               LoadFixture(options.features));
-    given.push_back("fixture");
+    given.paths.push_back("fixture");
   }
   if (!options.poses.empty()) {
     TRUEPOSE_RETURN_IF_ERROR(
         ReadPoses(client, RobotOf(name), options.poses, static_cast<v1::PoseSet&>(content)));
-    given.push_back("poses");
+    given.paths.push_back("poses");
   }
   if (!options.table_spec.empty()) {
     formats::GivenFields fields_of_spec;
-    TRUEPOSE_RETURN_IF_ERROR(AsInputFault(formats::ReadMessageFile(
-        options.table_spec, *static_cast<v1::Robot&>(content).mutable_table_spec(),
-        fields_of_spec)));
-    TRUEPOSE_RETURN_IF_ERROR(CheckTableSpecFields(fields_of_spec, options.table_spec + ": "));
-    given.push_back("table_spec");
+    v1::CompensationTableSpec& spec = *static_cast<v1::Robot&>(content).mutable_table_spec();
+    TRUEPOSE_RETURN_IF_ERROR(
+        AsInputFault(formats::ReadMessageFile(options.table_spec, spec, fields_of_spec)));
+    TRUEPOSE_RETURN_IF_ERROR(CheckTableSpec(spec, fields_of_spec, options.table_spec + ": "));
+    for (const std::string& field : fields_of_spec.in_si)
+      given.in_si.push_back("table_spec." + field);
+    given.paths.push_back("table_spec");
   }
-  if (given.empty() && needed) return UsageError("nothing to change: give --set or --file");
+  if (given.paths.empty() && needed) return UsageError("nothing to change: give --set or --file");
   return absl::OkStatus();
 }
 

@@ -11,6 +11,9 @@
 #include "client/cli/commands/table_remote.h"
 #include "client/cli/names.h"
 #include "client/cli/table.h"
+#include "client/cli/table_fault.h"
+#include "client/cli/written_units.h"
+#include "convert/table_spec.h"
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
 #include "formats/message_file.h"
@@ -50,18 +53,16 @@ void AddTableSpecOptions(const Command& command, TableOptions* options) {
       .Option("--set", "KEY=VALUE", &options->set, "Fields one by one, over those of the file");
 }
 
-absl::Status CheckTableSpecFields(const formats::GivenFields& given, const std::string& place) {
-  const auto begins = [&](absl::string_view with) {
-    return std::any_of(given.begin(), given.end(),
-                       [&](const std::string& field) { return absl::StartsWith(field, with); });
+absl::Status CheckTableSpec(const v1::CompensationTableSpec& spec,
+                            const formats::GivenFields& given, const std::string& place) {
+  const auto has = [&](absl::string_view begin) {
+    return std::any_of(given.paths.begin(), given.paths.end(),
+                       [&](const std::string& field) { return absl::StartsWith(field, begin); });
   };
-  if (!begins("box.")) return absl::OkStatus();
   FaultList faults;
-  if (begins("joint_ranges"))
+  if (has("box.") && has("joint_ranges"))
     faults.Add(place + "joint_ranges", "given beside box", "one domain: a box or joint ranges");
-  for (const char* edge : {"min_x_m", "max_x_m", "min_y_m", "max_y_m", "min_z_m", "max_z_m"})
-    if (!begins(absl::StrCat("box.", edge)))
-      faults.Add(absl::StrCat(place, "box.", edge, "m"), "nothing", "all six edges of the box");
+  faults.AddAll(InWrittenUnits(convert::ValidateTableSpec(spec), given), place);
   return faults.ToStatus();
 }
 
@@ -74,7 +75,7 @@ absl::StatusOr<v1::CompensationTableSpec> LoadTableSpec(const TableOptions& opti
   }
   TRUEPOSE_ASSIGN_OR_RETURN(const auto fields, SplitSets(options.set));
   TRUEPOSE_RETURN_IF_ERROR(formats::SetMessageFields(fields, "--set", spec, given));
-  TRUEPOSE_RETURN_IF_ERROR(CheckTableSpecFields(given, "--spec: "));
+  TRUEPOSE_RETURN_IF_ERROR(CheckTableSpec(spec, given, "--spec: "));
   return spec;
 }
 
@@ -106,10 +107,8 @@ const Renaming& TableFields() {
 absl::StatusOr<compensation::TableFile> LoadTable(const std::string& path) {
   compensation::TableFile file;
   const compensation::TableReport report = compensation::TableFile::Map(path.c_str(), {}, &file);
-  if (report.ok()) return file;
-  return FaultStatus(path,
-                     absl::StrCat(compensation::Name(report.fault), ": ", report.message.data()),
-                     "a table that `truepose table build` wrote, as it was written");
+  if (!report.ok()) return TableFaultStatus(report, path, path);
+  return file;
 }
 
 std::string EstimateText(const v1::CompensationTableEstimate& estimate) {

@@ -25,9 +25,10 @@ struct TableOptions {
   bool allow_draft = false, no_wait = false;  // only without --local
 };
 
-// What messages can't tell: an edge of the box that was not given counts as 0, and of two domains
-// the latter. @param given fields of the spec; @param place before the field in faults.
-absl::Status CheckTableSpecFields(const formats::GivenFields& given, const std::string& place);
+// What shows of a spec without a robot (convert/table_spec.h), and that of two domains in `given`
+// only the latter is in the message. Faults in the units that were written, `place` before each.
+absl::Status CheckTableSpec(const v1::CompensationTableSpec& spec,
+                            const formats::GivenFields& given, const std::string& place);
 
 // --spec and --set.
 void AddTableSpecOptions(const Command& command, TableOptions* options);

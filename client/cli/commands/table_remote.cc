@@ -6,13 +6,12 @@
 #include <vector>
 
 #include "absl/strings/ascii.h"
-#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
-#include "absl/strings/str_split.h"
 #include "client/cli/commands/download.h"
 #include "client/cli/commands/list_options.h"
+#include "client/cli/commands/table_names.h"
 #include "client/cli/commands/wait.h"
 #include "client/cli/names.h"
 #include "client/cli/outcome.h"
@@ -28,36 +27,6 @@ namespace truepose::cli {
 namespace {
 
 constexpr char kTableHint[] = "`truepose table list` shows the tables of this server.";
-constexpr char kOneTable[] = "ROBOT/UUID as of `table list`; a robot's name is its active table";
-
-// "robots/ur10/compensationTables/UUID" -> "ur10/UUID".
-std::string ShortTable(const std::string& name) {
-  const std::vector<std::string> parts = absl::StrSplit(name, '/');
-  return parts.size() == 4 ? absl::StrCat(parts[1], "/", parts[3]) : name;
-}
-
-std::string TableName(const std::string& typed) {
-  const std::vector<std::string> parts = absl::StrSplit(typed, '/');
-  if (parts.size() != 2 || parts[0] == "robots") return typed;
-  return absl::StrCat(RobotName(parts[0]), "/compensationTables/", parts[1]);
-}
-
-bool IsRobot(const std::string& typed) {
-  return !absl::StrContains(typed, '/') ||
-         (absl::StartsWith(typed, "robots/") && typed.find('/', 7) == std::string::npos);
-}
-
-absl::StatusOr<v1::CompensationTable> GetTable(const client::Client& client,
-                                               const std::string& typed) {
-  if (IsRobot(typed)) {
-    v1::GetActiveCompensationTableRequest request;
-    request.set_robot(RobotName(typed));
-    return client.GetActiveCompensationTable(request);
-  }
-  v1::GetCompensationTableRequest request;
-  request.set_name(TableName(typed));
-  return client.GetCompensationTable(request);
-}
 
 std::string StateText(const v1::CompensationTable& table) {
   const std::string name = v1::CompensationTableState_Name(table.state());
@@ -190,7 +159,7 @@ absl::Status BuildAndWait(const Invocation& invocation, const client::Client& cl
         const v1::CalibrationJob job,
         WaitWithProgress(invocation, client, table.job(), interrupt, "build"));
     TRUEPOSE_RETURN_IF_ERROR(StatusOfJob(job));
-    TRUEPOSE_ASSIGN_OR_RETURN(table, GetTable(client, table.name()));
+    TRUEPOSE_ASSIGN_OR_RETURN(table, FindTable(client, table.name()));
   }
   return Deliver(invocation, client, table, wanted.output);
 }
@@ -219,7 +188,7 @@ struct OneTable {
 
 absl::Status DownloadOne(const Invocation& invocation, const OneTable& options) {
   return WithServer(invocation, kTableHint, [&](const client::Client& client) -> absl::Status {
-    TRUEPOSE_ASSIGN_OR_RETURN(const v1::CompensationTable table, GetTable(client, options.name));
+    TRUEPOSE_ASSIGN_OR_RETURN(const v1::CompensationTable table, FindTable(client, options.name));
     TRUEPOSE_RETURN_IF_ERROR(Fetch(invocation, client, table, options.output));
     return Reply(invocation, table, [&] {
       return absl::StrCat("Table ", ShortTable(table.name()), " of ",
@@ -231,23 +200,27 @@ absl::Status DownloadOne(const Invocation& invocation, const OneTable& options) 
 
 absl::Status DeleteOne(const Invocation& invocation, const OneTable& options) {
   v1::DeleteCompensationTableRequest request;
-  request.set_name(TableName(options.name));
   request.set_etag(options.etag);
   request.set_validate_only(options.validate_only);
   return WithServer(invocation, kTableHint, [&](const client::Client& client) -> absl::Status {
+    TRUEPOSE_ASSIGN_OR_RETURN(const v1::CompensationTable found,
+                              FindTableToChange(client, options.name, false));
+    request.set_name(found.name());
     TRUEPOSE_ASSIGN_OR_RETURN(const auto table, client.DeleteCompensationTable(request));
     return Reply(invocation, table, [&] {
       return absl::StrCat("Deleted table ", ShortTable(table.name()), "\n`truepose table undelete ",
-                          ShortTable(table.name()), "` brings it back.\n");
+                          ShortTable(table.name()), "` brings it back within 7 days.\n");
     });
   });
 }
 
 absl::Status UndeleteOne(const Invocation& invocation, const OneTable& options) {
   v1::UndeleteCompensationTableRequest request;
-  request.set_name(TableName(options.name));
   request.set_validate_only(options.validate_only);
   return WithServer(invocation, kTableHint, [&](const client::Client& client) -> absl::Status {
+    TRUEPOSE_ASSIGN_OR_RETURN(const v1::CompensationTable found,
+                              FindTableToChange(client, options.name, true));
+    request.set_name(found.name());
     TRUEPOSE_ASSIGN_OR_RETURN(const auto table, client.UndeleteCompensationTable(request));
     return Reply(invocation, table, [&] { return TableText(table); });
   });
@@ -281,7 +254,7 @@ void AddChange(const Command& group, const std::string& verb, const std::string&
                absl::Status (*act)(const Invocation&, const OneTable&)) {
   const auto options = std::make_shared<OneTable>();
   const Command command = group.Add(verb, summary);
-  command.Required("TABLE", "", &options->name, "ROBOT/UUID as of `table list`");
+  command.Required("TABLE", "", &options->name, kTableToChange);
   if (verb == "delete")
     command.Option("--etag", "ETAG", &options->etag,
                    "Only if it is still in this state (of --json); default: whatever state");
@@ -315,7 +288,7 @@ absl::Status EstimateTableOnServer(const Invocation& invocation, const RemoteTab
 
 absl::Status ShowTableOnServer(const Invocation& invocation, const std::string& typed) {
   return WithServer(invocation, kTableHint, [&](const client::Client& client) -> absl::Status {
-    TRUEPOSE_ASSIGN_OR_RETURN(const v1::CompensationTable table, GetTable(client, typed));
+    TRUEPOSE_ASSIGN_OR_RETURN(const v1::CompensationTable table, FindTable(client, typed));
     return Reply(invocation, table, [&] { return TableText(table); });
   });
 }

@@ -5,6 +5,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "client/cli/commands/table.h"
+#include "client/cli/commands/table_names.h"
 #include "client/cli/commands/table_remote.h"
 #include "client/cli/reply.h"
 #include "client/cli/table.h"
@@ -73,8 +74,7 @@ absl::Status Verify(const Invocation& invocation, const VerifyOptions& options) 
 void AddTableShow(const Command& table) {
   const auto path = std::make_shared<std::string>();
   table.Add("show", "What a table is for, and how well it was verified")
-      .Required("TABLE", "", path.get(),
-                "File; on a server ROBOT/UUID, or a robot's name for its active table")
+      .Required("TABLE", "", path.get(), absl::StrCat("A file; else on a server ", kOneTable))
       .Footer(
           "Examples:\n  truepose table show ur10.tpct\n  truepose table show ur10.tpct --json\n"
           "  truepose table show ur10")

@@ -45,6 +45,17 @@ TEST(Filter, TermsHoldAsWritten) {
   }
 }
 
+// Would catch a look-up that misses what the filter would accept, or takes another field's text.
+TEST(Filter, TextAskedForIsThatOfOneTerm) {
+  EXPECT_EQ(TextAskedFor(R"(sha256 = "9f86")", "sha256"), "9f86");
+  EXPECT_EQ(TextAskedFor(R"(state = "READY" AND sha256 = "9f86")", "sha256"), "9f86");
+  for (const char* other :
+       {R"(sha256 = "9f*")", R"(sha256 != "9f86")", R"(state = "sha256")", R"(uid = "9f86")", "",
+        R"(sha256 = )", R"(sha256 = "9f86)", "sha256 = 5"}) {
+    EXPECT_EQ(TextAskedFor(other, "sha256"), std::nullopt) << other;
+  }
+}
+
 // Would catch a filter that is silently ignored, and a message that doesn't say where it is wrong.
 TEST(Filter, FaultsSayWhereAndWhat) {
   const std::vector<std::pair<std::string, std::string>> faults = {

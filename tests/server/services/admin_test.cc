@@ -1,6 +1,7 @@
 #include "server/services/admin.h"
 
 #include <fstream>
+#include <thread>
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
@@ -160,6 +161,82 @@ TEST_F(AdminTest, ARevokedTokenIsOutAtOnce) {
   EXPECT_THAT(RevokeToken(AsAdmin(), request), HasCode(absl::StatusCode::kNotFound));
   request.set_name("tokens/ben");
   EXPECT_THAT(RevokeToken(AsAdmin(), request), HasCode(absl::StatusCode::kInvalidArgument));
+}
+
+class RepeatedToken : public AdminTest {
+ protected:
+  absl::StatusOr<v1::CreateTokenResponse> Ask(const std::string& principal = "cell-7") {
+    auto request = Parse<v1::CreateTokenRequest>(R"pb(token { kind: MACHINE })pb");
+    request.mutable_token()->set_principal(principal);
+    request.set_request_id(testing::kSession1);
+    return CreateToken(AsAdmin(), request);
+  }
+  void WaitForUse(const std::string& token) {
+    // Writes come one after the other: one that was asked for later has passed it.
+    ASSERT_THAT(store().Write([](store::Transaction&) { return absl::OkStatus(); }), IsOk());
+    const auto all = *ListTokens(AsAdmin(), {});
+    ASSERT_EQ(all.tokens(0).name(), token);
+    ASSERT_TRUE(all.tokens(0).has_last_use_time());
+  }
+};
+
+// Would catch a retry that leaves a second token behind which nobody knows, or one that tells no
+// secret; and a secret that is stored to be told again.
+TEST_F(RepeatedToken, IsTheSameOneWithASecretThatWorks) {
+  const auto first = Ask();
+  ASSERT_THAT(first, IsOk());
+  const auto again = Ask();
+  ASSERT_THAT(again, IsOk());
+  EXPECT_EQ(again->token().SerializeAsString(), first->token().SerializeAsString());
+  EXPECT_EQ(ListTokens(AsAdmin(), {})->tokens_size(), 1);
+  EXPECT_NE(again->secret(), first->secret());
+  EXPECT_THAT(Show(first->secret()), HasCode(absl::StatusCode::kUnauthenticated));
+  EXPECT_THAT(Show(again->secret()), IsOk());
+  const auto restarted = *auth::Authenticator::Load(store());
+  EXPECT_THAT(restarted->Authenticate("Bearer " + again->secret()), IsOk());
+  EXPECT_THAT(restarted->Authenticate("Bearer " + first->secret()),
+              HasCode(absl::StatusCode::kUnauthenticated));
+}
+
+// Would catch a repeat that takes a machine's secret away while it works with it.
+TEST_F(RepeatedToken, WhatIsUsedStays) {
+  const auto first = Ask();
+  ASSERT_THAT(first, IsOk());
+  ASSERT_THAT(Show(first->secret()), IsOk());
+  WaitForUse(first->token().name());
+  EXPECT_THAT(Ask(), HasCode(absl::StatusCode::kAlreadyExists));
+  EXPECT_EQ(FieldsOf(Ask().status()), std::vector<std::string>{"request_id"});
+  EXPECT_THAT(Show(first->secret()), IsOk());
+}
+
+// Would catch a repeat that brings back what was revoked, and an id that is taken for another
+// request.
+TEST_F(RepeatedToken, WhatIsRevokedStaysSo) {
+  const auto first = Ask();
+  ASSERT_THAT(first, IsOk());
+  EXPECT_THAT(Ask("cell-8"), HasFaultsAt(std::vector<std::string>{"request_id"}));
+  v1::RevokeTokenRequest revoke;
+  revoke.set_name(first->token().name());
+  ASSERT_THAT(RevokeToken(AsAdmin(), revoke), IsOk());
+  EXPECT_THAT(Ask(), HasCode(absl::StatusCode::kAlreadyExists));
+  EXPECT_THAT(Show(first->secret()), HasCode(absl::StatusCode::kUnauthenticated));
+}
+
+// Would catch two repeats at once after which neither's secret is the one that the store has.
+TEST_F(RepeatedToken, OfManyAtOnceOneSecretWorks) {
+  std::vector<std::string> secrets(8);
+  std::vector<std::thread> clients;
+  for (std::string& secret : secrets) clients.emplace_back([&] { secret = Ask()->secret(); });
+  for (std::thread& client : clients) client.join();
+  EXPECT_EQ(ListTokens(AsAdmin(), {})->tokens_size(), 1);
+  const auto restarted = *auth::Authenticator::Load(store());
+  int works = 0;
+  for (const std::string& secret : secrets) {
+    const bool stored = restarted->Authenticate("Bearer " + secret).ok();
+    EXPECT_EQ(Show(secret).ok(), stored);
+    works += stored ? 1 : 0;
+  }
+  EXPECT_EQ(works, 1);
 }
 
 // Would catch a server to which nobody can ever be added again.

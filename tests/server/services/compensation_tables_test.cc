@@ -2,10 +2,12 @@
 // itself, and which one is to be applied.
 #include "server/services/compensation_tables.h"
 
+#include "absl/strings/str_cat.h"
 #include "core/base/status_macros.h"
 #include "server/services/download.h"
 #include "server/services/release.h"
 #include "server/services/robots.h"
+#include "server/services/standard.h"
 #include "server/services/table_jobs.h"
 #include "server/store/calibrations.h"
 #include "server/store/checksum.h"
@@ -13,6 +15,8 @@
 #include "server/store/jobs.h"
 #include "server/store/names.h"
 #include "server/store/robots.h"
+#include "server/store/sql/query.h"
+#include "server/store/table_files.h"
 #include "tests/server/testing/handler_test.h"
 
 namespace truepose::services {
@@ -271,6 +275,35 @@ TEST_F(TablesTest, FollowsAChangeOfTheSpec) {
   EXPECT_EQ(Tables().size(), 2u);
 }
 
+// Would catch a robot whose spec was stored when an edge at 0 was written as nothing, and which
+// gets no table any more.
+TEST_F(TablesTest, AStoredEdgeThatIsMissingIsZero) {
+  const auto spec = testing::Parse<v1::CompensationTableSpec>(R"pb(
+    box {
+      min_x_m: -0.6
+      max_x_m: -0.4
+      min_y_m: -0.2
+      min_z_m: 0.2
+      max_z_m: 0.4
+      reference_joints: [ 0, -1, 1.5, -2, -1.57, 0 ]
+    })pb");
+  ASSERT_THAT(store().Write([&](store::Transaction& transaction) -> absl::Status {
+    TRUEPOSE_ASSIGN_OR_RETURN(v1::Robot robot, store::GetRobot(transaction, "robots/ur10"));
+    *robot.mutable_table_spec() = spec;
+    return store::PutRobot(transaction, robot).status();
+  }),
+              IsOk());
+  Approve(kFirst);
+  Activate(kFirst);
+  ASSERT_EQ(Tables().size(), 1u);
+  EXPECT_TRUE(Tables()[0].spec().box().has_max_y_m());
+  v1::CreateCompensationTableRequest request = Request(kTable1, kFirst);
+  *request.mutable_compensation_table()->mutable_spec() = spec;
+  EXPECT_THAT(CreateCompensationTable(AsAnna(), request),
+              HasFaultsAt(Fields{"compensation_table.spec.box.max_y_m"}))
+      << "who asks for it now has to say where";
+}
+
 // Would catch an activation that fails for its table, or a reason that nobody can find.
 TEST_F(TablesTest, WhatCannotBeBuiltIsSaid) {
   v1::CompensationTableSpec ranges;
@@ -317,6 +350,58 @@ TEST_F(TablesTest, DeletedItIsNoLongerTheOneToApply) {
   back.set_name(remove.name());
   ASSERT_THAT(UndeleteCompensationTable(AsAnna(), back), IsOk());
   EXPECT_EQ(TheRobot().active_compensation_table(), remove.name());
+}
+
+// Would catch a table that is brought back without bytes, and a reason that speaks of a digest.
+TEST_F(TablesTest, WithoutItsBytesItCannotBeBroughtBack) {
+  Approve(kFirst);
+  const auto table = Create(kTable1, kFirst);
+  Finish(*table, "one");
+  v1::DeleteCompensationTableRequest remove;
+  remove.set_name(table->name());
+  ASSERT_THAT(DeleteCompensationTable(AsAnna(), remove), IsOk());
+  ASSERT_THAT(store().Write([](store::Transaction& transaction) -> absl::Status {
+    TRUEPOSE_RETURN_IF_ERROR(
+        store::sql::Run(transaction.sql(), "UPDATE table_files SET deleted_us = 1"));
+    return store::ForgetFile(transaction).status();
+  }),
+              IsOk());
+  v1::UndeleteCompensationTableRequest back;
+  back.set_name(table->name());
+  EXPECT_THAT(UndeleteCompensationTable(AsAnna(), back),
+              HasCode(absl::StatusCode::kFailedPrecondition));
+  v1::DownloadRequest download;
+  download.set_name(table->name());
+  EXPECT_THAT(Download::Begin(call(), download).status(),
+              HasCode(absl::StatusCode::kFailedPrecondition));
+  const auto anew = Create(kTable2, kFirst);
+  ASSERT_THAT(anew, IsOk());
+  EXPECT_EQ(anew->state(), v1::TABLE_BUILDING) << "it is not the deleted one";
+  Finish(*anew, "one");
+  EXPECT_THAT(UndeleteCompensationTable(AsAnna(), back), IsOk()) << "its bytes are there again";
+}
+
+// Would catch a look-up by digest that reads every table there is.
+TEST_F(TablesTest, ByItsDigestNoOtherIsRead) {
+  Approve(kFirst);
+  const auto first = Create(kTable1, kFirst, 1), second = Create(kTable2, kFirst, 2);
+  Finish(*first, "one");
+  Finish(*second, "two");
+  ASSERT_THAT(store().Write([&](store::Transaction& transaction) {
+    return store::sql::Run(transaction.sql(), "UPDATE resources SET message = x'ff' WHERE id = $1",
+                           kTable1);
+  }),
+              IsOk());
+  v1::ListCompensationTablesRequest list;
+  list.set_filter(
+      absl::StrCat("state = \"TABLE_READY\" AND sha256 = \"", store::Sha256Hex("two"), "\""));
+  v1::ListCompensationTablesResponse found;
+  ASSERT_THAT(ListStandard(call(), list, found), IsOk());
+  ASSERT_EQ(found.compensation_tables_size(), 1);
+  EXPECT_EQ(found.compensation_tables(0).name(), second->name());
+  list.set_filter("state = \"TABLE_READY\"");
+  EXPECT_THAT(ListStandard(call(), list, found), HasCode(absl::StatusCode::kDataLoss))
+      << "a list without a digest reads it";
 }
 
 // Would catch a dry run that leaves something behind.

@@ -1,5 +1,8 @@
 #include "server/services/recalibration_schedule.h"
 
+#include "core/base/status_macros.h"
+#include "server/store/sql/query.h"
+#include "server/store/tally.h"
 #include "tests/server/services/recalibration_testing.h"
 
 namespace truepose::services {
@@ -81,6 +84,62 @@ TEST_F(RecalibrationScheduleTest, APassEndsWhenTheServerStops) {
   clock_.Advance(absl::Hours(24 * 31));
   EXPECT_EQ(*RaiseDueRequests(store(), [] { return true; }), 0);
   EXPECT_EQ(Raise(), 1) << "the next pass does what was left";
+}
+
+// Would catch a round, or the server's status, that reads every request and policy ever made.
+TEST_F(RecalibrationScheduleTest, WhatIsOverIsNotRead) {
+  SetPolicy("on_failed_check: true", "no-interval");
+  ASSERT_THAT(Ask(kRequest1), IsOk());
+  ASSERT_THAT(Decline(kRequest1), IsOk());
+  ASSERT_THAT(Ask(kRequest2), IsOk());
+  ASSERT_THAT(store().Write([&](store::Transaction& transaction) -> absl::Status {
+    TRUEPOSE_RETURN_IF_ERROR(store::sql::Run(
+        transaction.sql(), "UPDATE resources SET message = x'ff' WHERE id = $1", kRequest1));
+    return store::sql::Run(transaction.sql(),
+                           "UPDATE resources SET message = x'ff' WHERE id = 'no-interval'");
+  }),
+              IsOk());
+  EXPECT_EQ(Raise(), 0);
+  EXPECT_THAT(ExpireRequests(store(), kNever), IsOk());
+  EXPECT_EQ(Open().name(), RequestName(kRequest2));
+  const auto tally =
+      store().Read([](store::Snapshot& snapshot) { return store::CountAll(snapshot); });
+  ASSERT_THAT(tally, IsOk());
+  EXPECT_EQ(tally->open_requests, 1);
+}
+
+// Would catch a store of before that counts what is over as open, or reads it with each round.
+TEST_F(RecalibrationScheduleTest, WhatWasOverBeforeIsClosedByTheFirstRound) {
+  ASSERT_THAT(Ask(kRequest1), IsOk());
+  ASSERT_THAT(Decline(kRequest1), IsOk());
+  ASSERT_THAT(store().Write([](store::Transaction& transaction) {
+    return store::sql::Run(transaction.sql(), "UPDATE resources SET open = 1 WHERE kind = 5");
+  }),
+              IsOk());
+  const auto open = [&] {
+    return *store().Read([](store::Snapshot& snapshot) {
+      return store::sql::QueryInt64(snapshot.sql(),
+                                    "SELECT COUNT(*) FROM resources WHERE open = 1");
+    });
+  };
+  EXPECT_EQ(store().Read([](store::Snapshot& s) { return store::CountAll(s); })->open_requests, 0);
+  EXPECT_EQ(open(), 1);
+  EXPECT_EQ(*ExpireRequests(store(), kNever), 0);
+  EXPECT_EQ(open(), 0);
+  EXPECT_EQ(Stored(kRequest1).state(), v1::REQUEST_DECLINED);
+}
+
+// Would catch a policy that was given an interval later, or a request, that no round looks at.
+TEST_F(RecalibrationScheduleTest, WhatBecomesOpenIsRead) {
+  SetPolicy("on_failed_check: true");
+  v1::UpdateRecalibrationPolicyRequest update;
+  update.mutable_recalibration_policy()->set_name("robots/ur10/recalibrationPolicies/default");
+  update.mutable_recalibration_policy()->mutable_interval()->set_seconds(2592000);
+  update.mutable_update_mask()->add_paths("interval");
+  v1::RecalibrationPolicy policy;
+  ASSERT_THAT(UpdateStandard(call(), update, policy), IsOk());
+  clock_.Advance(absl::Hours(24 * 31));
+  EXPECT_EQ(Raise(), 1);
 }
 
 // Would catch a request that stays open for ever, or that expires before its time or twice.
