@@ -21,6 +21,13 @@ constexpr testing::DamageManner kManner{
     .most_places = 6,
     .longest = 60};
 
+// Without a NUL, for which a program is refused whole.
+std::string Damaged(const std::string& whole, testing::Mutator* mutator) {
+  std::string text = mutator->Damage(whole);
+  std::replace(text.begin(), text.end(), '\0', ' ');
+  return text;
+}
+
 // The text with every joint number that was replaced taken out.
 std::string Rest(const std::string& text, const Program& program,
                  const std::vector<Change>& changes) {
@@ -45,8 +52,7 @@ TEST_P(MutationTest, DamagedProgramsKeepTheirBytes) {
   testing::Mutator mutator(7, kManner);
   int corrected_programs = 0;
   for (int i = 0; i < kCases && !HasFailure(); ++i) {
-    std::string text = mutator.Damage(whole);
-    std::replace(text.begin(), text.end(), '\0', ' ');  // a program with a NUL is refused whole
+    const std::string text = Damaged(whole, &mutator);
     const auto corrected =
         CorrectProgram(text, name, dialect, kSixRevolute, Shifted, {.keep_uncorrected = true});
     ASSERT_TRUE(corrected.ok()) << corrected.status() << "\n" << text;
@@ -64,9 +70,9 @@ TEST_P(MutationTest, DamagedProgramsKeepTheirBytes) {
 TEST_P(MutationTest, DamagedProgramsTakeAMark) {
   const std::string name = GetParam(), whole = Golden(name);
   const Dialect dialect = *DialectOfFile(name);
-  Mutator mutator(11);
+  testing::Mutator mutator(11, kManner);
   for (int i = 0; i < kCases && !HasFailure(); ++i) {
-    const std::string text = mutator.Damage(whole);
+    const std::string text = Damaged(whole, &mutator);
     const auto marked = AddMark(text, dialect, 6, "ab12");
     ASSERT_TRUE(marked.ok()) << marked.status() << "\n" << text;
     const auto found = FindMark(marked->text, dialect);
