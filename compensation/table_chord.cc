@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "compensation/above.h"
 #include "compensation/correct_by_table.h"
@@ -15,8 +16,6 @@ constexpr int kMostSteps = 8;
 constexpr double kLeastContraction = 0.5;
 // Of a correction, by weights and sums in float.
 constexpr double kRoundedShare = 4e-7;
-// A last step is taken without a look when ten times what the contraction promises is nothing.
-constexpr double kPromiseMargin = 10;
 
 // Joint steps by remainders, with lengths over the characteristic length.
 class Newton {
@@ -32,17 +31,19 @@ class Newton {
     return surely || SingularValuesAreAbove(J, least);
   }
 
-  // @returns the largest part of the step, rad or lengths.
+  // @returns the sum of the step's parts, rad or lengths; infinite where one is too long for
+  // AddSmallStep, or no number.
   double Step(const Twist& remainder, double* step) const {
     Twist weighted = remainder;
     weighted.head<3>() /= length_m_;
     inverse_.Solve(weighted, step);
-    double largest = 0;
+    double length = 0;
     for (int i = 0; i < 6; ++i) {
-      largest = std::max(largest, std::abs(step[i]));
+      const double part = std::abs(step[i]);
+      length += part <= kLongestSmallStep ? part : std::numeric_limits<double>::infinity();
       if (chain_.prismatic[i]) step[i] *= length_m_;
     }
-    return largest;
+    return length;
   }
 
  private:
@@ -68,37 +69,50 @@ Twist FirstRemainder(const TableSweep& sweep, const Delta& delta) {
   return e;
 }
 
-// Moves the joints by Newton's step. @returns false when it is too long for that.
-bool Advance(const JointChain& chain, const Newton& newton, Motions* motions, TableChord* state) {
+// Moves the joints by Newton's step. @returns its length.
+double Advance(const JointChain& chain, const Newton& newton, Motions* motions, TableChord* state) {
   double step[6];
-  if (!(newton.Step(state->remainder, step) <= kLongestSmallStep)) return false;
+  const double length = newton.Step(state->remainder, step);
   for (int i = 0; i < 6; ++i) state->q_chain[i] += step[i];
   AddSmallStep(chain, step, motions);
+  return length;
+}
+
+// A twist whose norms are at least those of what a step leaves, `way` the lengths of all steps with
+// this one: the Jacobian and E change by about as much as joints have moved since it was taken. 150
+// random arms with errors of 0.3 to 8 mm, on tables of three nodes an axis, left 0.3 of it at
+// worst. How the remainder shrank before says less: by luck it did so tenfold.
+Twist BoundOfRemainder(const Table& table, double way, double step) {
+  const double left = way * step;
+  return {table.header.characteristic_length_m * left, 0, 0, left, 0, 0};
+}
+
+// The remainder where the joints have come. @returns false outside of the grid.
+bool Look(const Table& table, const Pose& desired, const Motions& motions, TableChord* state) {
+  const Lookup lookup = LookUp(table, state->q_chain.data(), Reach::kGrid);
+  ++state->iterations;
+  state->axis = lookup.axis;
+  if (lookup.fault != LookupFault::kNone) return false;
+  state->remainder = Remainder(desired, CorrectedFlange(table, motions, lookup.delta));
   return true;
 }
 
-double SizeOf(const Twist& remainder) { return remainder.cwiseAbs().maxCoeff(); }
-
 ChordEnd Iterate(const Table& table, const Newton& newton, const Pose& desired, Motions* motions,
                  TableChord* state) {
-  const JointChain& chain = table.arm.nominal;
   const TableTolerance tolerance(table, state->delta);
-  double before = SizeOf(state->remainder);
-  for (state->iterations = 1; state->iterations <= kMostSteps; ++state->iterations) {
-    if (!Advance(chain, newton, motions, state)) return ChordEnd::kGivenUp;
-    const Lookup lookup = LookUp(table, state->q_chain.data(), Reach::kGrid);
-    state->axis = lookup.axis;
-    if (lookup.fault != LookupFault::kNone) return ChordEnd::kOutside;
-    state->remainder = Remainder(desired, CorrectedFlange(table, *motions, lookup.delta));
+  double way = 0, before = std::numeric_limits<double>::infinity();
+  while (state->iterations < kMostSteps) {
+    const double step = Advance(table.arm.nominal, newton, motions, state);
+    if (!(step < kLeastContraction * before)) return ChordEnd::kGivenUp;
+    way += step;
+    before = step;
+    const Twist bound = BoundOfRemainder(table, way, step);
+    if (state->iterations > 0 && tolerance.IsMet(bound)) {
+      state->remainder = bound;
+      return ChordEnd::kReached;
+    }
+    if (!Look(table, desired, *motions, state)) return ChordEnd::kOutside;
     if (tolerance.IsMet(state->remainder)) return ChordEnd::kReached;
-    const double contraction = SizeOf(state->remainder) / before;
-    if (!(contraction < kLeastContraction)) return ChordEnd::kGivenUp;
-    before = SizeOf(state->remainder);
-    const Twist promised = kPromiseMargin * contraction * state->remainder;
-    if (!tolerance.IsMet(promised)) continue;
-    if (!Advance(chain, newton, motions, state)) return ChordEnd::kGivenUp;
-    state->remainder = promised;
-    return ChordEnd::kReached;
   }
   return ChordEnd::kGivenUp;
 }

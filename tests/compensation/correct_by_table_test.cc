@@ -91,6 +91,27 @@ TEST(CorrectByTable, IsSolvedToAThousandthOfTheTolerance) {
   }
 }
 
+// Would catch a last step called nothing because the one before happened to leave little: on a
+// coarse grid, or where the tolerance of rotation is far looser than that of position or the other
+// way round, what a step leaves in one comes out of the other.
+TEST(CorrectByTable, NeverLeavesMoreThanItSays) {
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    std::vector<bool> prismatic(6, false);
+    if (seed % 3 != 0) prismatic[seed % 6] = true;
+    TableContent content = testing::PlainContent(testing::RandomArm(prismatic, 2e-3, seed), 0.2);
+    for (const PoseError& asked : {PoseError{1e-4, 1e-3}, {2e-5, 1e-2}, {1e-3, 1e-6}}) {
+      content.header.tolerance = asked;
+      const Table table = MakeTable(content);
+      Random random(seed);
+      for (int trial = 0; trial < 60; ++trial) {
+        const JointArray target = RandomTarget(content, &random);
+        if (CorrectByTable(table, target.data()).outcome == Outcome::kOk)
+          ExpectCorrected(table, target);
+      }
+    }
+  }
+}
+
 // The table holds the correction of the flange in the right frame and with the right sign: the
 // identified flange comes to the target as near as the nodes are dense.
 TEST(CorrectByTable, BringsTheIdentifiedFlangeToTheTarget) {
