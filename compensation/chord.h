@@ -11,8 +11,8 @@ struct ChordOptions {
   double position_tolerance_m = 1e-10;
   double rotation_tolerance_rad = 1e-10;
   double characteristic_length_m = 1;
-  // A step longer than this over the remainder it is to undo (lengths / characteristic length)
-  // gives up: something near a singularity for SolveLeast to look at.
+  // Steps that together are longer than this times the first remainder (lengths / characteristic
+  // length) give up: something near a singularity for SolveLeastSquares to look at.
   double largest_gain = 100;
 };
 
