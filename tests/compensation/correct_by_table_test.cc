@@ -206,6 +206,26 @@ TEST(CorrectByTable, LeavesTheLeastWithFewerJoints) {
   }
 }
 
+// Where rotation may be as it likes. Would catch joints called at rest by the tolerance of rotation
+// alone: the point that a SCARA puts into place would be off by more than the table allows.
+TEST(CorrectByTable, FewerJointsComeToRestForThePositionToo) {
+  for (const std::vector<bool>& prismatic :
+       {std::vector<bool>(5, false), std::vector<bool>{false, false, true, false}}) {
+    TableContent content = testing::PlainContent(testing::RandomArm(prismatic, 1e-3, 2), 0.2);
+    const Table finest = MakeTable(content);
+    content.header.tolerance = {1e-6, 1};
+    const Table table = MakeTable(content);
+    Random random(29);
+    for (int trial = 0; trial < 20; ++trial) {
+      const JointArray q = RandomTarget(content, &random);
+      const Pose reached = testing::FlangeByTable(table, CorrectByTable(table, q.data()).q.data());
+      const Pose expected =
+          testing::FlangeByTable(finest, CorrectByTable(finest, q.data()).q.data());
+      EXPECT_LT((reached.p - expected.p).norm(), 2e-9) << "a thousandth of 1 um, and rounding";
+    }
+  }
+}
+
 // Joints over the error that they undo, both in radians.
 double GainOf(const TableContent& content, const JointArray& target, const Correction& corrected) {
   const Twist error = Between(NominalFlange(content.arm, target.data()),
