@@ -296,6 +296,21 @@ TableContent WithWristSingularity() {
   return content;
 }
 
+// A table that is to correct everywhere, asked where the wrist is straight to the last bit. Would
+// catch a step taken from a matrix that has no inverse and called the last: what it left undone
+// would be reported as nothing.
+TEST(CorrectByTable, NeverBelievesAStepThatSolvesNothing) {
+  TableContent content = WithWristSingularity();
+  content.header.smallest_singular_value = 0;
+  const Table table = MakeTable(content);
+  Random random(30);
+  for (int trial = 0; trial < 100; ++trial) {
+    JointArray q = RandomTarget(content, &random);
+    q[4] = 0;
+    if (CorrectByTable(table, q.data()).outcome == Outcome::kOk) ExpectCorrected(table, q);
+  }
+}
+
 // On both sides of the stated smallest singular value, never a correction below it; and never a
 // refusal above it, which a bound that is not exact would give.
 TEST(CorrectByTable, RefusesNearSingularitiesExactly) {
