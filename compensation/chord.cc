@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "compensation/inverse6.h"
+#include "compensation/sines.h"
 
 namespace truepose::compensation {
 namespace {
@@ -17,6 +18,13 @@ bool IsIdentity(const Arm& arm) {
     for (int i = 0; i < 6; ++i) sum += std::abs(arm.joint_scale(i, j) - (i == j ? 1 : 0));
   }
   return sum == 0;
+}
+
+// Beyond, a step is lost in the last digits of `v`, but not in the motions.
+bool HasDigits(const JointArray& v) {
+  bool has = true;
+  for (int i = 0; i < 6; ++i) has &= std::abs(v[i]) <= kLargestAngle;
+  return has;
 }
 
 double SizeOf(const Twist& e, double length) {
@@ -42,6 +50,7 @@ class Chords {
     RunSweep(arm_.identified, state_.motions, &sweep_);
     state_.remainder = Remainder(desired_, sweep_.X_BF);
     if (Arrived(state_.remainder, options_)) return true;
+    if (!HasDigits(state_.v)) return false;
     size_ = SizeOf(state_.remainder, options_.characteristic_length_m);
     way_left_ = options_.largest_gain * size_;
     if (!Invert() || !Step(true)) return false;

@@ -6,7 +6,6 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "compensation/chord.h"
 #include "compensation/effects.h"
 #include "compensation/least_squares.h"
 #include "compensation/singularity.h"
@@ -131,65 +130,6 @@ TEST(Exact, StretchedElbowGivesTheNearestPose) {
     EXPECT_NEAR(LeftAt(named, desired, correction)(0), correction.position_error_m, 1e-12);
   }
   EXPECT_GT(unreached, 0);
-}
-
-// Largest joint change over the error that it undoes, rad (lengths over the characteristic one).
-double GainOf(const Arm& arm, const JointArray& from, const JointArray& to) {
-  const Twist e = Remainder(NominalFlange(arm, from.data()), IdentifiedFlange(arm, from.data()));
-  double moved = 0;
-  for (int i = 0; i < arm.nominal.joints; ++i) moved = std::max(moved, std::abs(to[i] - from[i]));
-  return moved / (e.head<3>().norm() / CharacteristicLength(arm.nominal) + e.tail<3>().norm());
-}
-
-JointArray NearlyStraightWrist(double bend, Random* random) {
-  JointArray q{};
-  for (int i = 0; i < 6; ++i) q[i] = random->Uniform(-2, 2);
-  q[4] = bend * random->Uniform(-1, 1);
-  return q;
-}
-
-// A robot of 9 m. Would catch lengths taken over a metre instead of the characteristic length, with
-// which small errors of position may move the joints of a large robot further than is said.
-TEST(Exact, GainOfALargeRobotCountsInItsLengths) {
-  Arm arm = Ur10Arm(1e-6, 3).arm;
-  for (JointChain* chain : {&arm.nominal, &arm.identified}) {
-    for (Pose& constant : chain->constant) constant.p *= 8;
-  }
-  Random random(31);
-  int ok = 0;
-  for (int draw = 0; draw < 200; ++draw) {
-    const JointArray q = NearlyStraightWrist(2e-3, &random);
-    const Correction correction = CorrectJoints(arm, q.data(), {});
-    if (correction.outcome != Outcome::kOk) continue;
-    ++ok;
-    const double sigma =
-        std::min(SingularValueAt(arm, q.data()), SingularValueAt(arm, correction.q.data()));
-    // One ten thousandth for the joints' rounding.
-    EXPECT_TRUE(sigma >= 1e-3 || GainOf(arm, q, correction.q) <= 100 * (1 + 1e-4)) << draw;
-  }
-  EXPECT_GT(ok, 10);
-}
-
-// Would catch steps that are held against the remainder of the moment: beside a singularity that
-// may grow, and the next step with it, until joints are far away for a small error.
-TEST(Chord, AllStepsTogetherAreHeldAgainstTheFirstError) {
-  Random random(32);
-  int solved = 0;
-  for (const double size : {1e-5, 1e-4}) {
-    const Arm arm = Ur10Arm(size, 3).arm;
-    for (int draw = 0; draw < 20000; ++draw) {
-      const JointArray q = NearlyStraightWrist(1e3 * size, &random);
-      ChordOptions options;
-      options.characteristic_length_m = CharacteristicLength(arm.nominal);
-      ChordState state;
-      state.v = q;
-      SetMotions(arm.identified, q.data(), &state.motions);
-      if (!SolveByChords(arm, NominalFlange(arm, q.data()), options, &state)) continue;
-      ++solved;
-      EXPECT_LE(GainOf(arm, q, state.v), options.largest_gain) << draw;
-    }
-  }
-  EXPECT_GT(solved, 1000);
 }
 
 TEST(Exact, NoErrorsNoChangeEvenAtASingularity) {
