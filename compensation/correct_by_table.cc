@@ -151,13 +151,8 @@ Correction Refusal(const Table& table, const double* q, Outcome outcome, int joi
 
 void CheckLimits(const Arm& arm, Correction* result) {
   if (result->outcome != Outcome::kOk) return;
-  for (int i = 0; i < arm.nominal.joints; ++i) {
-    const bool within = result->q[i] >= arm.limits[i].lower && result->q[i] <= arm.limits[i].upper;
-    if (within) continue;
-    result->outcome = Outcome::kBeyondLimit;
-    result->joint = i;
-    return;
-  }
+  result->joint = BeyondLimit(arm, result->q.data());
+  if (result->joint >= 0) result->outcome = Outcome::kBeyondLimit;
 }
 
 void FillReached(const Table& table, const TableChord& chord, Correction* result) {

@@ -27,14 +27,6 @@ double LengthOf(const Arm& arm, const ExactOptions& options) {
                                              : CharacteristicLength(arm.nominal);
 }
 
-// The first controller joint beyond its limits, or -1.
-int BeyondLimit(const Arm& arm, const double* q) {
-  for (int i = 0; i < arm.nominal.joints; ++i) {
-    if (!(q[i] >= arm.limits[i].lower && q[i] <= arm.limits[i].upper)) return i;
-  }
-  return -1;
-}
-
 // Corrects one target the slow way.
 class SlowWay {
  public:
