@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "compensation/inverse6.h"
+#include "compensation/sines.h"
 
 namespace truepose::compensation {
 namespace {
@@ -17,6 +18,13 @@ bool IsIdentity(const Arm& arm) {
     for (int i = 0; i < 6; ++i) sum += std::abs(arm.joint_scale(i, j) - (i == j ? 1 : 0));
   }
   return sum == 0;
+}
+
+// Beyond, a step is lost in the last digits of `v`, but not in the motions.
+bool HasDigits(const JointArray& v) {
+  bool has = true;
+  for (int i = 0; i < 6; ++i) has &= std::abs(v[i]) <= kLargestAngle;
+  return has;
 }
 
 double SizeOf(const Twist& e, double length) {
@@ -42,6 +50,9 @@ class Chords {
     RunSweep(arm_.identified, state_.motions, &sweep_);
     state_.remainder = Remainder(desired_, sweep_.X_BF);
     if (Arrived(state_.remainder, options_)) return true;
+    if (!HasDigits(state_.v)) return false;
+    size_ = SizeOf(state_.remainder, options_.characteristic_length_m);
+    way_left_ = options_.largest_gain * size_;
     if (!Invert() || !Step(true)) return false;
     for (state_.iterations = 1; state_.iterations <= kMostSteps; ++state_.iterations) {
       const double before = size_;
@@ -61,7 +72,6 @@ class Chords {
   }
 
   bool Invert() {
-    size_ = SizeOf(state_.remainder, options_.characteristic_length_m);
     Eigen::Matrix<double, 6, 6> J;
     for (int i = 0; i < 6; ++i) J.col(i) = ColumnOf(arm_.identified, sweep_, i);
     if (!identity_) J = (J * arm_.joint_scale.topLeftCorner<6, 6>()).eval();
@@ -91,16 +101,18 @@ class Chords {
     }
   }
 
-  // @returns false when the step is too long for the small angles, or for what it is to undo.
+  // @returns false when the step is too long for the small angles, or all of them for what they are
+  // to undo.
   bool Advance(const double* step, const double* chain_step) {
     double largest = 0, largest_of_chain = 0;
     for (int i = 0; i < 6; ++i) {
       state_.v[i] += step[i];
-      largest = std::max(largest, std::abs(step[i]));
+      const double unit = arm_.nominal.prismatic[i] ? options_.characteristic_length_m : 1;
+      largest = std::max(largest, std::abs(step[i]) / unit);
       largest_of_chain = std::max(largest_of_chain, std::abs(chain_step[i]));
     }
-    if (!(largest <= options_.largest_gain * size_ && largest_of_chain <= kLongestSmallStep))
-      return false;
+    way_left_ -= largest;
+    if (!(way_left_ >= 0 && largest_of_chain <= kLongestSmallStep)) return false;
     AddSmallStep(arm_.identified, chain_step, &state_.motions);
     return true;
   }
@@ -112,7 +124,8 @@ class Chords {
   const bool identity_;
   Sweep sweep_;
   Inverse6 inverse_;
-  double size_ = 0;
+  double size_ = 0;      // of the last remainder
+  double way_left_ = 0;  // rad or lengths
 };
 
 }  // namespace

@@ -11,8 +11,8 @@ struct ChordOptions {
   double position_tolerance_m = 1e-10;
   double rotation_tolerance_rad = 1e-10;
   double characteristic_length_m = 1;
-  // A step longer than this over the remainder it is to undo (lengths / characteristic length)
-  // gives up: something near a singularity for SolveLeast to look at.
+  // Steps that together are longer than this times the first remainder (lengths / characteristic
+  // length) give up: something near a singularity for SolveLeastSquares to look at.
   double largest_gain = 100;
 };
 
@@ -28,8 +28,8 @@ struct ChordState {
 // Solves identified(joint_scale v + joint_offset) = desired for an arm of six joints. The Jacobian
 // is taken afresh only when an error is not ten times smaller than the one before.
 // @param state v and the motions of its chain joints.
-// @returns false when a step is longer than kLongestSmallStep (rad; m), the gain too large, or
-// eight steps do not do: then nothing in `state` is of use.
+// @returns false when a step is longer than kLongestSmallStep (rad; m), the gain too large, eight
+// steps do not do, or a joint is beyond kLargestAngle (rad; m): then nothing in `state` is of use.
 bool SolveByChords(const Arm& arm, const Pose& desired, const ChordOptions& options,
                    ChordState* state) noexcept;
 

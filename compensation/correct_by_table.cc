@@ -61,15 +61,18 @@ class TableSlowWay {
       const double moved = Move(result);
       if (Joints() < 6 && !settled_) break;
       if (!Look(result)) return;
-      const bool done =
-          Joints() < 6 ? moved <= kSettled * tolerance_.rotation_rad : tolerance_.IsMet(remainder_);
-      if (!done) continue;
+      if (!(Joints() < 6 ? moved <= Rest() : tolerance_.IsMet(remainder_))) continue;
       result->outcome = Outcome::kOk;
       if (Joints() < 6 && IsLargeForItsError(*result)) Refuse(result);
       return;
     }
     result->outcome = Outcome::kUnreachable;
     if (Joints() < 6) Refuse(result);
+  }
+
+  // rad or lengths; whichever of position and rotation asks for less.
+  double Rest() const {
+    return kSettled * std::min(tolerance_.position_m / task_.length_m, tolerance_.rotation_rad);
   }
 
   // The weighted coordinates hardly tell where a joint should be: the least remainder is far away,
@@ -80,13 +83,18 @@ class TableSlowWay {
     result->outcome = Outcome::kNearSingular;
   }
 
-  bool IsLargeForItsError(const Correction& result) const {
+  // The largest change of a joint, rad or lengths.
+  double Moved(const double* from, const JointArray& to) const {
     double largest = 0;
     for (int i = 0; i < Joints(); ++i) {
       const double unit = table_.arm.nominal.prismatic[i] ? task_.length_m : 1;
-      largest = std::max(largest, std::abs(result.q[i] - start_[i]) / unit);
+      largest = std::max(largest, std::abs(to[i] - from[i]) / unit);
     }
-    return largest > kLargestGain * error_;
+    return largest;
+  }
+
+  bool IsLargeForItsError(const Correction& result) const {
+    return Moved(start_, result.q) > kLargestGain * error_;
   }
 
   // To joints whose nominal flange is where the correction of the last ones asks for.
@@ -97,9 +105,7 @@ class TableSlowWay {
     if (solved.reached && Joints() > 6) solved = DrawTowards(task_, start_, solved);
     result->iterations += solved.iterations;
     settled_ = solved.settled;
-    double moved = 0;
-    for (int i = 0; i < Joints(); ++i)
-      moved = std::max(moved, std::abs(solved.v[i] - result->q[i]));
+    const double moved = Moved(result->q.data(), solved.v);
     result->q = solved.v;
     return moved;
   }
@@ -145,13 +151,8 @@ Correction Refusal(const Table& table, const double* q, Outcome outcome, int joi
 
 void CheckLimits(const Arm& arm, Correction* result) {
   if (result->outcome != Outcome::kOk) return;
-  for (int i = 0; i < arm.nominal.joints; ++i) {
-    const bool within = result->q[i] >= arm.limits[i].lower && result->q[i] <= arm.limits[i].upper;
-    if (within) continue;
-    result->outcome = Outcome::kBeyondLimit;
-    result->joint = i;
-    return;
-  }
+  result->joint = BeyondLimit(arm, result->q.data());
+  if (result->joint >= 0) result->outcome = Outcome::kBeyondLimit;
 }
 
 void FillReached(const Table& table, const TableChord& chord, Correction* result) {

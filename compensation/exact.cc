@@ -27,14 +27,6 @@ double LengthOf(const Arm& arm, const ExactOptions& options) {
                                              : CharacteristicLength(arm.nominal);
 }
 
-// The first controller joint beyond its limits, or -1.
-int BeyondLimit(const Arm& arm, const double* q) {
-  for (int i = 0; i < arm.nominal.joints; ++i) {
-    if (!(q[i] >= arm.limits[i].lower && q[i] <= arm.limits[i].upper)) return i;
-  }
-  return -1;
-}
-
 // Corrects one target the slow way.
 class SlowWay {
  public:
@@ -189,9 +181,7 @@ bool SolveFast(const Arm& arm, bool has_effects, const Pose& X_BF, const ExactOp
   ChordOptions chords;
   chords.position_tolerance_m = options.position_tolerance_m;
   chords.rotation_tolerance_rad = options.rotation_tolerance_rad;
-  // To know when to look closer a metre will do: what is called ok is measured anyhow.
-  if (options.characteristic_length_m > 0)
-    chords.characteristic_length_m = options.characteristic_length_m;
+  chords.characteristic_length_m = LengthOf(arm, options);
   chords.largest_gain = LargestGain(options);
   if (!SolveByChords(arm, X_BF, chords, state)) return false;
   if (!has_effects) {

@@ -5,7 +5,9 @@
 // G = B A^-1 and S = C - G B^T its Schur complement,
 //   y2 = S^-1 (e2 - G e1),  y1 = A^-1 e1 - G^T y2,
 // A^-1 and S^-1 by cofactors. Rounding counts with the square of the condition: x is right to about
-// 1e-15 cond^2, which a chord makes up for as long as that is far below 1.
+// 1e-15 cond^2 (cond^4 where two singular values are small), which a chord makes up for as long as
+// that is far below 1. Beyond, x may be of any size and wrong: see what Unsolved says, or what the
+// step has done.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,8 +18,8 @@ class Inverse6 {
  public:
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-  // @returns false when the matrix is singular to rounding, or not finite; Solve then means
-  // nothing.
+  // @returns false when the matrix is seen to be singular or not finite; Solve then means nothing.
+  // Of what is singular to rounding about half is seen.
   bool Set(const Matrix6& matrix) noexcept {
     J_ = matrix;
     Eigen::Matrix3d A, B, C;
@@ -41,6 +43,12 @@ class Inverse6 {
       x[j] = 0;
       for (int i = 0; i < 3; ++i) x[j] += J_(i, j) * y1(i) + J_(3 + i, j) * y2(i);
     }
+  }
+
+  // b - J x.
+  Eigen::Matrix<double, 6, 1> Unsolved(const Eigen::Matrix<double, 6, 1>& b,
+                                       const double* x) const noexcept {
+    return b - J_.lazyProduct(Eigen::Map<const Eigen::Matrix<double, 6, 1>>(x));
   }
 
   // Of the inverse, which is the trace of (J J^T)^-1: 1 over it is at most the matrix' smallest

@@ -1,7 +1,8 @@
 #include "compensation/lookup.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "compensation/valid.h"
 
 namespace truepose::compensation {
 namespace {
@@ -112,10 +113,6 @@ int OutsideAxis(const Table& table, const double* u, Reach reach) {
   return -1;
 }
 
-bool AllFinite(const double* values, int count) {
-  return std::all_of(values, values + count, [](double value) { return std::isfinite(value); });
-}
-
 }  // namespace
 
 std::array<double, kMaxJoints> CoordinatesOf(const Table& table, const double* q_chain) noexcept {
@@ -131,7 +128,7 @@ Lookup LookUp(const Table& table, const double* q_chain, Reach reach) noexcept {
   Lookup lookup;
   const int outside = OutsideAxis(table, u.data(), reach);
   if (outside >= 0) {
-    const bool finite = AllFinite(q_chain, table.header.joints);
+    const bool finite = AreFinite(q_chain, table.header.joints);
     lookup.fault = finite ? LookupFault::kOutside : LookupFault::kNotFinite;
     lookup.axis = finite ? outside : -1;
     return lookup;

@@ -86,19 +86,12 @@ class Follower {
     return largest;
   }
 
-  int BeyondLimit(const JointArray& q) const {
-    for (int i = 0; i < n_; ++i) {
-      if (!(q[i] >= arm_.limits[i].lower && q[i] <= arm_.limits[i].upper)) return i;
-    }
-    return -1;
-  }
-
   Outcome TryPiece(const Pose& X) {
     task_.desired = X;
     const LeastSquaresResult found = SolveLeastSquares(task_, q_.data());
     if (!IsThere(found)) return Outcome::kUnreachable;
     if (LargestMove(found.v) > kLongestPiece) return Outcome::kNearSingular;
-    end_.joint = BeyondLimit(found.v);
+    end_.joint = BeyondLimit(arm_, found.v.data());
     if (end_.joint >= 0) return Outcome::kBeyondLimit;
     const Stand stand = StandAt(found.v);
     end_.smallest_singular_value = std::min(end_.smallest_singular_value, stand.singular_value);

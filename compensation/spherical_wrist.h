@@ -29,9 +29,9 @@ struct WristBranches {
 };
 
 // Candidates of all branches, near double roots right to 1e-4 only (nearly degenerate arms 5e-3,
-// wrist_placement.h): to be polished on the chain, and what does not converge there is none. @param
-// q_reference chain joints that stand for those which a singular place leaves free (W on a revolute
-// axis 1 or 2, a straight wrist).
+// wrist_placement.h): to be polished on the chain, and what does not converge there is none.
+// @param q_reference chain joints that stand for those which a singular place leaves free (W on a
+// revolute axis 1 or 2, a straight wrist).
 WristBranches WristCandidates(const JointChain& chain, const SphericalWrist& wrist,
                               const Pose& X_BF, const double* q_reference) noexcept;
 

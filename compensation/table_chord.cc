@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "compensation/above.h"
 #include "compensation/correct_by_table.h"
@@ -15,8 +16,6 @@ constexpr int kMostSteps = 8;
 constexpr double kLeastContraction = 0.5;
 // Of a correction, by weights and sums in float.
 constexpr double kRoundedShare = 4e-7;
-// A last step is taken without a look when ten times what the contraction promises is nothing.
-constexpr double kPromiseMargin = 10;
 
 // Joint steps by remainders, with lengths over the characteristic length.
 class Newton {
@@ -32,17 +31,29 @@ class Newton {
     return surely || SingularValuesAreAbove(J, least);
   }
 
-  // @returns the largest part of the step, rad or lengths.
-  double Step(const Twist& remainder, double* step) const {
-    Twist weighted = remainder;
-    weighted.head<3>() /= length_m_;
-    inverse_.Solve(weighted, step);
-    double largest = 0;
+  // @returns the sum of the step's parts, rad or lengths; infinite where one is too long for
+  // AddSmallStep, or no number.
+  double Step(const Twist& remainder, double* step) {
+    weighted_ = remainder;
+    weighted_.head<3>() /= length_m_;
+    inverse_.Solve(weighted_, step_);
+    double length = 0;
     for (int i = 0; i < 6; ++i) {
-      largest = std::max(largest, std::abs(step[i]));
-      if (chain_.prismatic[i]) step[i] *= length_m_;
+      const double part = std::abs(step_[i]);
+      length += part <= kLongestSmallStep ? part : std::numeric_limits<double>::infinity();
+      step[i] = step_[i] * (chain_.prismatic[i] ? length_m_ : 1);
     }
-    return largest;
+    return length;
+  }
+
+  // A twist whose norms are at least those of what the last step leaves, `way` the lengths of all
+  // steps with this one, the last: what rounding has not solved, and that the Jacobian and E change
+  // by about as much as joints have moved since it was taken. 150 random arms with errors of 0.3 to
+  // 8 mm, on tables of three nodes an axis, left 0.3 of the second part at worst. How the remainder
+  // shrank before says less: by luck it did so tenfold.
+  Twist BoundOfRemainder(double way, double last) const {
+    const double left = way * last + inverse_.Unsolved(weighted_, step_).norm();
+    return {length_m_ * left, 0, 0, left, 0, 0};
   }
 
  private:
@@ -58,6 +69,8 @@ class Newton {
   const JointChain& chain_;
   double length_m_;
   Inverse6 inverse_;
+  Twist weighted_;  // the last remainder and its step, as numbers alone
+  double step_[6];
 };
 
 // What E does to the flange, to first order: the step is no better.
@@ -68,37 +81,42 @@ Twist FirstRemainder(const TableSweep& sweep, const Delta& delta) {
   return e;
 }
 
-// Moves the joints by Newton's step. @returns false when it is too long for that.
-bool Advance(const JointChain& chain, const Newton& newton, Motions* motions, TableChord* state) {
+// Moves the joints by Newton's step. @returns its length.
+double Advance(const JointChain& chain, Newton* newton, Motions* motions, TableChord* state) {
   double step[6];
-  if (!(newton.Step(state->remainder, step) <= kLongestSmallStep)) return false;
+  const double length = newton->Step(state->remainder, step);
   for (int i = 0; i < 6; ++i) state->q_chain[i] += step[i];
   AddSmallStep(chain, step, motions);
+  return length;
+}
+
+// The remainder where the joints have come. @returns false outside of the grid.
+bool Look(const Table& table, const Pose& desired, const Motions& motions, TableChord* state) {
+  const Lookup lookup = LookUp(table, state->q_chain.data(), Reach::kGrid);
+  ++state->iterations;
+  state->axis = lookup.axis;
+  if (lookup.fault != LookupFault::kNone) return false;
+  state->remainder = Remainder(desired, CorrectedFlange(table, motions, lookup.delta));
   return true;
 }
 
-double SizeOf(const Twist& remainder) { return remainder.cwiseAbs().maxCoeff(); }
-
-ChordEnd Iterate(const Table& table, const Newton& newton, const Pose& desired, Motions* motions,
+ChordEnd Iterate(const Table& table, Newton* newton, const Pose& desired, Motions* motions,
                  TableChord* state) {
-  const JointChain& chain = table.arm.nominal;
   const TableTolerance tolerance(table, state->delta);
-  double before = SizeOf(state->remainder);
-  for (state->iterations = 1; state->iterations <= kMostSteps; ++state->iterations) {
-    if (!Advance(chain, newton, motions, state)) return ChordEnd::kGivenUp;
-    const Lookup lookup = LookUp(table, state->q_chain.data(), Reach::kGrid);
-    state->axis = lookup.axis;
-    if (lookup.fault != LookupFault::kNone) return ChordEnd::kOutside;
-    state->remainder = Remainder(desired, CorrectedFlange(table, *motions, lookup.delta));
+  double way = 0, before = std::numeric_limits<double>::infinity();
+  while (state->iterations < kMostSteps) {
+    const double step = Advance(table.arm.nominal, newton, motions, state);
+    if (!(step < kLeastContraction * before)) return ChordEnd::kGivenUp;
+    way += step;
+    before = step;
+    const Twist bound = newton->BoundOfRemainder(way, step);
+    // Only the grid says where joints may go: the first place is looked at in any case.
+    if (state->iterations > 0 && tolerance.IsMet(bound)) {
+      state->remainder = bound;
+      return ChordEnd::kReached;
+    }
+    if (!Look(table, desired, *motions, state)) return ChordEnd::kOutside;
     if (tolerance.IsMet(state->remainder)) return ChordEnd::kReached;
-    const double contraction = SizeOf(state->remainder) / before;
-    if (!(contraction < kLeastContraction)) return ChordEnd::kGivenUp;
-    before = SizeOf(state->remainder);
-    const Twist promised = kPromiseMargin * contraction * state->remainder;
-    if (!tolerance.IsMet(promised)) continue;
-    if (!Advance(chain, newton, motions, state)) return ChordEnd::kGivenUp;
-    state->remainder = promised;
-    return ChordEnd::kReached;
   }
   return ChordEnd::kGivenUp;
 }
@@ -127,7 +145,7 @@ ChordEnd CorrectByChords(const Table& table, TableChord* state) noexcept {
   Newton newton(chain, table.header.characteristic_length_m);
   if (!newton.Set(sweep, table.header.smallest_singular_value)) return ChordEnd::kGivenUp;
   state->remainder = FirstRemainder(sweep, state->delta);
-  return Iterate(table, newton, sweep.X_BF, &motions, state);
+  return Iterate(table, &newton, sweep.X_BF, &motions, state);
 }
 
 }  // namespace truepose::compensation

@@ -18,7 +18,8 @@ struct TableChord {
   Delta delta;           // of the target, on entry
   int iterations = 0;
   int axis = -1;                    // of kOutside
-  Twist remainder = Twist::Zero();  // with kReached; a bound where the last step was not looked at
+  Twist remainder = Twist::Zero();  // with kReached; where the last step was not looked at, a twist
+                                    // whose two norms are bounds
 };
 
 // @pre table.header.joints is 6

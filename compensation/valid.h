@@ -1,6 +1,7 @@
 // What arguments of the runtime have to be. A fault of them is an outcome, not a crash.
 #pragma once
 
+#include <Eigen/LU>
 #include <cmath>
 
 #include "compensation/arm.h"
@@ -18,6 +19,14 @@ inline bool AreFinite(const double* values, int count) noexcept {
 inline bool IsArm(const Arm& arm) noexcept {
   return arm.nominal.joints >= 1 && arm.nominal.joints <= kMaxJoints &&
          arm.identified.joints == arm.nominal.joints;
+}
+
+// The first controller joint beyond its limits, also by what is no number, or -1.
+inline int BeyondLimit(const Arm& arm, const double* q) noexcept {
+  for (int i = 0; i < arm.nominal.joints; ++i) {
+    if (!(q[i] >= arm.limits[i].lower && q[i] <= arm.limits[i].upper)) return i;
+  }
+  return -1;
 }
 
 // Of an arm with as many controller joints.

@@ -91,6 +91,27 @@ TEST(CorrectByTable, IsSolvedToAThousandthOfTheTolerance) {
   }
 }
 
+// Would catch a last step called nothing because the one before happened to leave little: on a
+// coarse grid, or where the tolerance of rotation is far looser than that of position or the other
+// way round, what a step leaves in one comes out of the other.
+TEST(CorrectByTable, NeverLeavesMoreThanItSays) {
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    std::vector<bool> prismatic(6, false);
+    if (seed % 3 != 0) prismatic[seed % 6] = true;
+    TableContent content = testing::PlainContent(testing::RandomArm(prismatic, 2e-3, seed), 0.2);
+    for (const PoseError& asked : {PoseError{1e-4, 1e-3}, {2e-5, 1e-2}, {1e-3, 1e-6}}) {
+      content.header.tolerance = asked;
+      const Table table = MakeTable(content);
+      Random random(seed);
+      for (int trial = 0; trial < 60; ++trial) {
+        const JointArray target = RandomTarget(content, &random);
+        if (CorrectByTable(table, target.data()).outcome == Outcome::kOk)
+          ExpectCorrected(table, target);
+      }
+    }
+  }
+}
+
 // The table holds the correction of the flange in the right frame and with the right sign: the
 // identified flange comes to the target as near as the nodes are dense.
 TEST(CorrectByTable, BringsTheIdentifiedFlangeToTheTarget) {
@@ -185,6 +206,26 @@ TEST(CorrectByTable, LeavesTheLeastWithFewerJoints) {
   }
 }
 
+// Where rotation may be as it likes. Would catch joints called at rest by the tolerance of rotation
+// alone: the point that a SCARA puts into place would be off by more than the table allows.
+TEST(CorrectByTable, FewerJointsComeToRestForThePositionToo) {
+  for (const std::vector<bool>& prismatic :
+       {std::vector<bool>(5, false), std::vector<bool>{false, false, true, false}}) {
+    TableContent content = testing::PlainContent(testing::RandomArm(prismatic, 1e-3, 2), 0.2);
+    const Table finest = MakeTable(content);
+    content.header.tolerance = {1e-6, 1};
+    const Table table = MakeTable(content);
+    Random random(29);
+    for (int trial = 0; trial < 20; ++trial) {
+      const JointArray q = RandomTarget(content, &random);
+      const Pose reached = testing::FlangeByTable(table, CorrectByTable(table, q.data()).q.data());
+      const Pose expected =
+          testing::FlangeByTable(finest, CorrectByTable(finest, q.data()).q.data());
+      EXPECT_LT((reached.p - expected.p).norm(), 2e-9) << "a thousandth of 1 um, and rounding";
+    }
+  }
+}
+
 // Joints over the error that they undo, both in radians.
 double GainOf(const TableContent& content, const JointArray& target, const Correction& corrected) {
   const Twist error = Between(NominalFlange(content.arm, target.data()),
@@ -253,6 +294,21 @@ TableContent WithWristSingularity() {
   content.axis[4].upper = 1;
   testing::FillNodes(&content);
   return content;
+}
+
+// A table that is to correct everywhere, asked where the wrist is straight to the last bit. Would
+// catch a step taken from a matrix that has no inverse and called the last: what it left undone
+// would be reported as nothing.
+TEST(CorrectByTable, NeverBelievesAStepThatSolvesNothing) {
+  TableContent content = WithWristSingularity();
+  content.header.smallest_singular_value = 0;
+  const Table table = MakeTable(content);
+  Random random(30);
+  for (int trial = 0; trial < 100; ++trial) {
+    JointArray q = RandomTarget(content, &random);
+    q[4] = 0;
+    if (CorrectByTable(table, q.data()).outcome == Outcome::kOk) ExpectCorrected(table, q);
+  }
 }
 
 // On both sides of the stated smallest singular value, never a correction below it; and never a

@@ -51,6 +51,32 @@ TEST(Inverse6, RefusesWhatHasNoInverse) {
   EXPECT_FALSE(inverse.Set(matrix));
 }
 
+// What is singular to rounding may pass, but its solution is seen to be none. Would catch a
+// residual that is always small, or of the transposed matrix.
+TEST(Inverse6, SaysWhatItHasNotSolved) {
+  Random random(44);
+  int passed = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    Six matrix = RandomMatrix(&random);
+    const Eigen::Matrix<double, 6, 1> b = RandomMatrix(&random).col(0);
+    double x[6];
+    Inverse6 inverse;
+    ASSERT_TRUE(inverse.Set(matrix));
+    inverse.Solve(b, x);
+    const double condition = matrix.norm() * matrix.inverse().norm();
+    EXPECT_LT(inverse.Unsolved(b, x).norm(), 1e-14 * condition * condition);
+    matrix.row(4) = matrix.row(0) + 0.5 * matrix.row(1) - matrix.row(2);
+    if (!inverse.Set(matrix)) continue;
+    ++passed;
+    inverse.Solve(b, x);
+    const Eigen::Matrix<double, 6, 1> left =
+        b - matrix * Eigen::Map<Eigen::Matrix<double, 6, 1>>(x);
+    EXPECT_LT((inverse.Unsolved(b, x) - left).norm(), 1e-12 * (1 + left.norm()));
+    EXPECT_GT(inverse.Unsolved(b, x).norm(), 1e-3);
+  }
+  EXPECT_GT(passed, 50);
+}
+
 // Against singular values that are found; both sides of the bound, closely.
 TEST(SingularValuesAreAbove, DecidesAsTheSmallestOne) {
   Random random(42);
