@@ -9,6 +9,7 @@
 #include "convert/digest.h"
 #include "convert/frames.h"
 #include "core/base/fault.h"
+#include "core/compensation/table_spec.h"
 
 namespace truepose::convert {
 namespace {
@@ -16,7 +17,6 @@ namespace {
 // Nodes are floats: of corrections of some mm a float holds 1e-9 m, and a table of it meets no
 // less than this. More than the most is no correction at all.
 constexpr double kLeastTolerance = 1e-8, kMostTolerance = 1;
-constexpr double kLeastSingularValue = 1e-9;
 constexpr double kTurn = 2 * std::numbers::pi;
 
 void CheckTolerance(double value, const std::string& field, FaultList* faults) {

@@ -77,9 +77,9 @@ void CheckBox(const BoxDomain& box, const Arm& arm, FaultList* faults) {
   CheckReference(box, arm, faults);
 }
 
-void CheckTolerance(double value, const std::string& field, FaultList* faults) {
-  if (!(value >= kLeastTolerance && value <= 1))
-    faults->Add(field, absl::StrCat(value), absl::StrCat(kLeastTolerance, " to 1"));
+void CheckTolerance(double value, double least, const std::string& field, FaultList* faults) {
+  if (!(value >= least && value <= 1))
+    faults->Add(field, absl::StrCat(value), absl::StrCat(least, " to 1"));
 }
 
 }  // namespace
@@ -92,9 +92,10 @@ absl::Status Validate(const TableSpec& spec, const Arm& arm) {
     CheckRanges(spec, arm, &faults);
   else
     CheckLimits(arm, &faults);
-  CheckTolerance(spec.position_tolerance_m, "position_tolerance_m", &faults);
-  CheckTolerance(spec.rotation_tolerance_rad, "rotation_tolerance_rad", &faults);
-  CheckTolerance(spec.smallest_singular_value, "smallest_singular_value", &faults);
+  CheckTolerance(spec.position_tolerance_m, kLeastTolerance, "position_tolerance_m", &faults);
+  CheckTolerance(spec.rotation_tolerance_rad, kLeastTolerance, "rotation_tolerance_rad", &faults);
+  CheckTolerance(spec.smallest_singular_value, kLeastSingularValue, "smallest_singular_value",
+                 &faults);
   if (spec.verification_points < kFewestPoints)
     faults.Add("verification_points", absl::StrCat(spec.verification_points),
                absl::StrCat("at least ", kFewestPoints));

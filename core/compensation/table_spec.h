@@ -47,10 +47,14 @@ struct TableSpec {
   uint64_t seed = 1;  // equal seeds, equal bytes
 };
 
+// What decides in the runtime is right to 1e-8.
+inline constexpr double kLeastSingularValue = 1e-6;
+
 // Every fault of the spec for this arm, fields as `joint_ranges.joints[1]`, `box.cone_rad`: of
 // ranges in the wrong order or beyond the arm's limits, a prismatic joint without any, an empty
 // box, an approach without direction, reference joints of another count, tolerances that are not
-// above 1e-9, points below 1000, bytes above 64 MiB.
+// above 1e-9, a smallest singular value below
+// kLeastSingularValue, points below 1000, bytes above 64 MiB.
 absl::Status Validate(const TableSpec& spec, const compensation::Arm& arm);
 
 }  // namespace truepose

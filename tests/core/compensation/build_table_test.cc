@@ -307,10 +307,11 @@ TEST(BuildTable, NamesEveryFaultOfItsSpec) {
   spec.box->reference = Eigen::VectorXd::Zero(5);
   spec.box->cone_rad = 4;
   spec.position_tolerance_m = 0;
+  spec.smallest_singular_value = 1e-7;
   spec.verification_points = 10;
   const auto refused = EstimateTable(Ur10Case().arm, spec);
   EXPECT_EQ(refused.status().code(), absl::StatusCode::kInvalidArgument);
-  EXPECT_EQ(FaultsOf(refused.status()).size(), 5u) << refused.status();
+  EXPECT_EQ(FaultsOf(refused.status()).size(), 6u) << refused.status();
 }
 
 // A sliding joint without limits has no range. Would catch a table of infinite size.
