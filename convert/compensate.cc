@@ -47,17 +47,17 @@ void FillRefused(const Refused& refused, v1::CompensatedTarget* result) {
   if (refused.joint >= 0) result->set_joint(refused.joint);
 }
 
-// Compensates targets of one robot with one tool.
+// Compensates targets of one robot with one tool, one after the other.
 class Compensator {
  public:
   Compensator(const Robot& robot, const compensation::Arm& arm, const Pose& X_FT)
-      : robot_(robot), arm_(arm), X_FT_(X_FT) {
+      : robot_(robot), arm_(arm), X_FT_(X_FT), before_(robot.MiddleOfLimits()) {
     // Far below any encoder, so that equal targets get equal joints whatever way they came.
     options_.position_tolerance_m = options_.rotation_tolerance_rad = 1e-13;
     options_.point_F = X_FT.p;
   }
 
-  v1::CompensatedTarget Run(const v1::CompensationTarget& target) const {
+  v1::CompensatedTarget Run(const v1::CompensationTarget& target) {
     v1::CompensatedTarget result;
     const Refused refused = Correct(target, &result);
     if (refused.outcome != v1::COMPENSATION_OK) FillRefused(refused, &result);
@@ -67,7 +67,7 @@ class Compensator {
   }
 
  private:
-  Refused Correct(const v1::CompensationTarget& target, v1::CompensatedTarget* result) const {
+  Refused Correct(const v1::CompensationTarget& target, v1::CompensatedTarget* result) {
     if (arm_.measuring) return RunTip(target, result);
     return target.has_pose() ? RunPose(target, result) : RunJoints(target, result);
   }
@@ -85,19 +85,20 @@ class Compensator {
     return {};
   }
 
-  Refused RunJoints(const v1::CompensationTarget& target, v1::CompensatedTarget* result) const {
+  Refused RunJoints(const v1::CompensationTarget& target, v1::CompensatedTarget* result) {
     const double* q = target.joints().data();
     Refused beyond = CheckLimits(q);
     if (beyond.outcome != v1::COMPENSATION_OK) return beyond;
     return Fill(q, NominalFlange(arm_, q), CorrectJoints(arm_, q, options_), result);
   }
 
-  Refused RunPose(const v1::CompensationTarget& target, v1::CompensatedTarget* result) const {
+  // A row of poses is a path: without joints of its own each keeps the configuration before.
+  Refused RunPose(const v1::CompensationTarget& target, v1::CompensatedTarget* result) {
     const Pose X_BF = PoseFrom(target.pose()) * Inverse(X_FT_);
     const Eigen::VectorXd seed =
         target.joints_size() > 0
             ? Eigen::Map<const Eigen::VectorXd>(target.joints().data(), target.joints_size())
-            : robot_.MiddleOfLimits();
+            : before_;
     const Correction nominal = NearestBranch(arm_, X_BF, seed.data(), {options_});
     const Correction solved = CorrectPose(arm_, X_BF, nominal.q.data(), options_);
     return Fill(nominal.q.data(), X_BF, solved, result);
@@ -105,8 +106,9 @@ class Compensator {
 
   // @param q_nominal where the nominal flange is at X_BF.
   Refused Fill(const double* q_nominal, const Pose& X_BF, const Correction& solved,
-               v1::CompensatedTarget* result) const {
+               v1::CompensatedTarget* result) {
     if (solved.outcome != Outcome::kOk) return RefusedFor(solved);
+    before_ = Eigen::Map<const Eigen::VectorXd>(q_nominal, robot_.joint_count());
     for (int i = 0; i < robot_.joint_count(); ++i) result->add_joints(solved.q[i]);
     *result->mutable_pose() = ToProto(NominalFlange(arm_, solved.q.data()) * X_FT_);
     SetCorrection(X_BF * X_FT_, IdentifiedFlange(arm_, q_nominal) * X_FT_, result);
@@ -170,6 +172,7 @@ class Compensator {
   const compensation::Arm& arm_;
   const Pose X_FT_;
   ExactOptions options_;
+  Eigen::VectorXd before_;  // nominal joints of the last target that was compensated
 };
 
 absl::StatusOr<Pose> ToolOf(const v1::Nominal& nominal, const std::string& name) {
@@ -187,7 +190,7 @@ absl::StatusOr<v1::CompensateResponse> RunCompensation(const v1::Nominal& nomina
                             CalibratedArmFrom(nominal, calibration));
   TRUEPOSE_RETURN_IF_ERROR(CheckTargets(request, robot.joint_count()));
   TRUEPOSE_ASSIGN_OR_RETURN(const Pose X_FT, ToolOf(nominal, request.tool()));
-  const Compensator compensator(robot, calibrated.arm, X_FT);
+  Compensator compensator(robot, calibrated.arm, X_FT);
   v1::CompensateResponse response;
   for (const v1::CompensationTarget& target : request.targets())
     *response.add_targets() = compensator.Run(target);

@@ -19,6 +19,7 @@ using compensation::Arm;
 using compensation::JointLimits;
 
 constexpr int kPoses = 4000;
+constexpr int kUniformPoses = 2000;  // of which the share that is not reached is told
 constexpr double kShareOnRim = 0.5;
 // Ranges found at drawn poses, half of them on the rim, fall short of the true ones: of 4,000 in
 // six dimensions by some 1 % of the width at most.
@@ -59,7 +60,7 @@ AxisRange RangeOf(const TableAxes& axes, int k, const std::vector<JointVector>& 
 }
 
 absl::StatusOr<TableDomain> OfBox(const Arm& arm, const TableSpec& spec) {
-  const PoseSamples samples = SamplePoses(arm, *spec.box, kPoses, kShareOnRim, spec.seed);
+  PoseSamples samples = SamplePoses(arm, *spec.box, kPoses, kShareOnRim, spec.seed);
   if (samples.q_chain.empty()) {
     FaultList faults;
     faults.Add(
@@ -67,9 +68,11 @@ absl::StatusOr<TableDomain> OfBox(const Arm& arm, const TableSpec& spec) {
         "places that the arm reaches from its reference joints without passing a singularity");
     return faults.ToStatus(absl::StatusCode::kFailedPrecondition);
   }
+  const PoseSamples uniform = SamplePoses(arm, *spec.box, kUniformPoses, 0, spec.seed + 1);
+  samples.q_chain.insert(samples.q_chain.end(), uniform.q_chain.begin(), uniform.q_chain.end());
   TableDomain domain{TableAxes(arm, WeightOfSamples(arm, samples.q_chain)), {}, {}};
-  domain.poses = kPoses;
-  domain.unreachable = samples.unreachable;
+  domain.poses = kUniformPoses;
+  domain.unreachable = uniform.unreachable;
   for (int k = 0; k < arm.nominal.joints; ++k)
     domain.range.push_back(Widened(RangeOf(domain.axes, k, samples.q_chain),
                                    domain.axes.Hull(k, LimitsOr(arm, HUGE_VAL))));

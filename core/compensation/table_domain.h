@@ -14,7 +14,8 @@ struct TableDomain {
   TableAxes axes;
   std::vector<AxisRange> range;  // of each u
   std::vector<double> margin;    // nodes reach so far beyond each range (compensation/table.h)
-  // Of a box: drawn poses, and how many of them the configuration does not reach within its limits.
+  // Of a box: poses drawn uniformly in it, and how many of them the configuration does not reach
+  // within its limits.
   int poses = 0;
   int unreachable = 0;
 };

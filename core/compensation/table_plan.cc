@@ -18,6 +18,7 @@ using compensation::Arm;
 
 constexpr double kMegabyte = 1 << 20;
 constexpr double kMostBytes = 1e18;  // what an integer holds; such tables are refused
+constexpr double kMostLoosening = 1e6;
 
 // The domain with its folded coordinates as wide as the limits allow.
 TableDomain Widened(const Arm& arm, const TableDomain& domain, const std::vector<bool>& folded) {
@@ -65,6 +66,39 @@ double Loosening(const TableEstimate& estimate, const TableSpec& spec) {
   return std::pow(larger, 2.0 / static_cast<double>(std::max<ptrdiff_t>(axes, 1)));
 }
 
+// Upwards, to two digits, as it is told.
+double Rounded(double value) {
+  const double digit = std::pow(10, std::floor(std::log10(value)) - 1);
+  return digit * std::ceil(value / digit * (1 - 1e-12));
+}
+
+bool Fits(const TablePlan& plan, const TableSpec& spec, const ToleranceUnits& units) {
+  TablePlan other = plan;
+  other.units = units;
+  return EstimateOf(other, kFirstShare).bytes <= spec.largest_bytes;
+}
+
+constexpr double kMmPerM = 1e3, kDegPerRad = 180 / std::numbers::pi;
+
+ToleranceUnits Times(const ToleranceUnits& units, double position, double rotation) {
+  return {Rounded(units.position_m * kMmPerM * position) / kMmPerM,
+          Rounded(units.rotation_rad * kDegPerRad * rotation) / kDegPerRad};
+}
+
+// Tolerances as they are told with which the table would fit, larger only where that is needed.
+ToleranceUnits TolerancesThatFit(const TableEstimate& estimate, const TablePlan& plan,
+                                 const TableSpec& spec) {
+  double factor = Loosening(estimate, spec);
+  while (!Fits(plan, spec, Times(plan.units, factor, factor)) && factor < kMostLoosening)
+    factor *= 1.05;
+  ToleranceUnits units = Times(plan.units, factor, factor);
+  for (const ToleranceUnits& one : {ToleranceUnits{units.position_m, plan.units.rotation_rad},
+                                    ToleranceUnits{plan.units.position_m, units.rotation_rad}}) {
+    if (Fits(plan, spec, one)) return one;
+  }
+  return units;
+}
+
 }  // namespace
 
 absl::StatusOr<TablePlan> PlanTable(const Arm& arm, const TableSpec& spec) {
@@ -96,17 +130,16 @@ TableEstimate EstimateOf(const TablePlan& plan, double share) {
 absl::Status CheckSize(const TableEstimate& estimate, const TablePlan& plan,
                        const TableSpec& spec) {
   if (estimate.bytes <= spec.largest_bytes) return absl::OkStatus();
-  const double factor = Loosening(estimate, spec);
+  const ToleranceUnits units = TolerancesThatFit(estimate, plan, spec);
   FaultList faults;
   faults.Add("largest_bytes",
              absl::StrFormat("a table of %.4g MB with %s nodes",
                              static_cast<double>(estimate.bytes) / kMegabyte,
                              absl::StrJoin(estimate.nodes, " x ")),
-             absl::StrFormat("at most %.4g MB: loosen the tolerances to some %.2g mm and %.2g deg, "
+             absl::StrFormat("at most %.4g MB: loosen the tolerances to %.2g mm and %.2g deg, "
                              "or narrow the joint ranges or the box",
                              static_cast<double>(spec.largest_bytes) / kMegabyte,
-                             1e3 * factor * plan.units.position_m,
-                             factor * plan.units.rotation_rad * 180 / std::numbers::pi));
+                             kMmPerM * units.position_m, kDegPerRad * units.rotation_rad));
   return faults.ToStatus(absl::StatusCode::kFailedPrecondition);
 }
 

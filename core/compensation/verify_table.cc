@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "core/base/fault.h"
 #include "core/base/random.h"
 #include "core/base/status_macros.h"
 #include "core/compensation/table_error.h"
@@ -148,13 +151,28 @@ class Verifier {
     const JointVector q = domain_.axes.ToController(u);
     const TablePoint point = TableErrorAt(table_, arm_, q.data());
     if (point.outcome == Outcome::kUnreachable || point.outcome == Outcome::kInvalidArgument)
-      return absl::InternalError(absl::StrCat("a target of the table's domain ended with ",
-                                              compensation::Name(point.outcome)));
+      return NotCorrected(q, point.outcome);
     if (point.outcome != Outcome::kOk) return point;
     ++result_.points;
     result_.worst.position_m = std::max(result_.worst.position_m, point.error.position_m);
     result_.worst.rotation_rad = std::max(result_.worst.rotation_rad, point.error.rotation_rad);
     return point;
+  }
+
+  absl::Status NotCorrected(const JointVector& q, Outcome outcome) const {
+    std::string joints;
+    for (int i = 0; i < q.size(); ++i) {
+      const bool slides = arm_.nominal.prismatic[static_cast<size_t>(i)];
+      absl::StrAppendFormat(&joints, "%s%.1f %s", i > 0 ? ", " : "",
+                            q(i) * (slides ? 1e3 : 180 / std::numbers::pi), slides ? "mm" : "deg");
+    }
+    FaultList faults;
+    faults.Add("domain",
+               absl::StrCat("a target that can't be corrected (", compensation::Name(outcome),
+                            ") at ", joints),
+               "a domain in which corrections are small: narrow the box or the joint ranges, raise "
+               "smallest_singular_value, or calibrate with poses from there");
+    return faults.ToStatus(absl::StatusCode::kFailedPrecondition);
   }
 
   absl::Status Report() const {

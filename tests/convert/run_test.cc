@@ -197,6 +197,36 @@ TEST(RunCompensation, JointTargetsAndPoseTargetsAgree) {
   for (int i = 0; i < 6; ++i) EXPECT_NEAR(by_pose->targets(0).joints(i), first.joints(i), 1e-9);
 }
 
+// Poses in a row are a path: given once, the configuration is kept, also over one that is out of
+// reach. Would catch each pose solved by itself: the arm would turn over between two of them.
+TEST(RunCompensation, PosesInARowKeepTheConfiguration) {
+  const v1::CalibrationInput input = SampleInput(60);
+  v1::Calibration calibration = MustRun(input), none = calibration;
+  for (v1::InternalParameter& parameter : *none.mutable_internal_parameters())
+    parameter.set_value(0);
+  v1::CompensateRequest request;
+  for (int k = 0; k < 20; ++k) {
+    v1::CompensationTarget* target = request.add_targets();
+    for (double q : {0.1 + 0.05 * k, 0.6, -0.9, 2.2, -0.8, 0.2 + 0.02 * k}) target->add_joints(q);
+  }
+  const v1::CompensateRequest path = request;
+  const auto desired = RunCompensation(input.nominal(), none, path);
+  ASSERT_TRUE(desired.ok()) << desired.status();
+  for (int k = 0; k < 20; ++k) {
+    *request.mutable_targets(k)->mutable_pose() = desired->targets(k).pose();
+    if (k > 0) request.mutable_targets(k)->clear_joints();
+  }
+  request.mutable_targets(7)->mutable_pose()->set_x_m(9);
+  const auto compensated = RunCompensation(input.nominal(), calibration, request);
+  ASSERT_TRUE(compensated.ok()) << compensated.status();
+  for (int k = 0; k < 20; ++k) {
+    if (k == 7) continue;
+    ASSERT_EQ(compensated->targets(k).fault(), "") << k;
+    for (int i = 0; i < 6; ++i)
+      EXPECT_NEAR(compensated->targets(k).joints(i), path.targets(k).joints(i), 0.1) << k;
+  }
+}
+
 // A target that can't be reached carries its fault, the others are corrected.
 TEST(RunCompensation, OneBadTargetDoesNotSpoilTheRest) {
   const v1::CalibrationInput input = SampleInput(60);

@@ -1,6 +1,7 @@
 // Tables as built, held against exact correction at points that the builder has not seen.
 #include "core/compensation/build_table.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -171,25 +172,32 @@ TEST(BuildTable, EstimateIsOfTheTableThatIsBuilt) {
   EXPECT_NEAR(built.content.header.worst.position_m / estimate->error.position_m, 1, 0.3);
 }
 
-// Would catch a refusal that does not help: with the tolerances that it names the table must fit.
+// Would catch a refusal that does not help: with the tolerances that it names, as they are written,
+// the table must fit, and what was enough stays.
 TEST(BuildTable, TooLargeIsRefusedWithWhatWouldFit) {
-  Case it = Ur10Case();
-  it.spec.largest_bytes = 20000;
-  const auto refused = EstimateTable(it.arm, it.spec);
-  EXPECT_EQ(refused.status().code(), absl::StatusCode::kFailedPrecondition);
-  const auto faults = FaultsOf(refused.status());
-  ASSERT_EQ(faults.size(), 1u);
-  EXPECT_EQ(faults[0].field, "largest_bytes");
-  double mm = 0, deg = 0;
-  const size_t at = faults[0].expected.find("to some ");
-  ASSERT_NE(at, std::string::npos) << faults[0].expected;
-  ASSERT_EQ(std::sscanf(faults[0].expected.c_str() + at, "to some %lf mm and %lf deg", &mm, &deg),
-            2);
-  // Counts are rounded up: of few nodes that is much.
-  it.spec.position_tolerance_m = 1.5e-3 * mm;
-  it.spec.rotation_tolerance_rad = 1.5 * deg * testing::kDeg;
-  const auto fits = EstimateTable(it.arm, it.spec);
-  EXPECT_TRUE(fits.ok()) << fits.status();
+  for (const int64_t largest : {20'000, 40'000, 70'000}) {
+    for (const double finer : {1.0, 0.01}) {
+      Case it = Ur10Case();
+      it.spec.largest_bytes = largest;
+      it.spec.position_tolerance_m *= finer;
+      const auto faults = FaultsOf(EstimateTable(it.arm, it.spec).status());
+      ASSERT_EQ(faults.size(), 1u) << largest;
+      EXPECT_EQ(faults[0].field, "largest_bytes");
+      double mm = 0, deg = 0;
+      const size_t at = faults[0].expected.find("tolerances to ");
+      ASSERT_NE(at, std::string::npos) << faults[0].expected;
+      ASSERT_EQ(std::sscanf(faults[0].expected.c_str() + at, "tolerances to %lf mm and %lf deg",
+                            &mm, &deg),
+                2);
+      it.spec.position_tolerance_m = 1e-3 * mm;
+      it.spec.rotation_tolerance_rad = deg * testing::kDeg;
+      const auto fits = EstimateTable(it.arm, it.spec);
+      EXPECT_TRUE(fits.ok()) << fits.status();
+      if (finer < 1) {
+        EXPECT_NEAR(deg, 0.005, 1e-4) << "the rotation was not the limit";
+      }
+    }
+  }
 }
 
 // The wrist turns through its singularity.
@@ -213,6 +221,21 @@ TEST(BuildTable, StatesWhatShareOfTheDomainIsRefused) {
   EXPECT_LT(refused, 9000);
   // Five standard deviations of a share of 10,000.
   EXPECT_NEAR(built.content.header.near_singular_share, 1e-4 * refused, 0.025);
+}
+
+// A table that is to hold at a singularity itself. Would catch a build that ends without saying
+// where and what to do.
+TEST(BuildTable, NamesATargetThatCantBeCorrected) {
+  Case it = WristCase();
+  it.spec.smallest_singular_value = 1e-4;
+  it.spec.position_tolerance_m = it.spec.rotation_tolerance_rad = 1e-2;
+  const auto refused = BuildTable(it.arm, it.spec, {}, {});
+  EXPECT_EQ(refused.status().code(), absl::StatusCode::kFailedPrecondition) << refused.status();
+  const auto faults = FaultsOf(refused.status());
+  ASSERT_EQ(faults.size(), 1u) << refused.status();
+  EXPECT_EQ(faults[0].field, "domain");
+  EXPECT_THAT(faults[0].found, ::testing::HasSubstr(" deg"));
+  EXPECT_THAT(faults[0].expected, ::testing::HasSubstr("smallest_singular_value"));
 }
 
 // Would catch accuracy that is stated from the few points that were left: of 20 times as many as

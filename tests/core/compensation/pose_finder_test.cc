@@ -89,6 +89,22 @@ TEST(DomainOf, HoldsThePlacesOfItsBox) {
   EXPECT_LT(domain->range[3].width(), 1.3);
 }
 
+// Of a box that ends beyond the arm's reach. Would catch a share that counts the rim of the box and
+// of the cone, where half the poses are drawn that find the domain's ranges.
+TEST(DomainOf, TellsTheShareOfItsVolumeThatIsNotReached) {
+  const Arm arm = testing::DrawnArm(testing::Ur10(), 1);
+  TableSpec spec;
+  spec.box = Ur10Box();
+  spec.box->box_B.max().x() += 0.7;
+  const auto domain = DomainOf(arm, spec);
+  ASSERT_TRUE(domain.ok()) << domain.status();
+  const double share = SamplePoses(arm, *spec.box, 10000, 0, 78).unreachable / 1e4;
+  EXPECT_GT(share, 0.02);
+  EXPECT_LT(share, 0.6);
+  // Five standard deviations of a share of 2,000 at most.
+  EXPECT_NEAR(static_cast<double>(domain->unreachable) / domain->poses, share, 0.05);
+}
+
 // An arm of five joints meets the position; would catch that its orientation is asked for.
 TEST(PoseFinder, PutsPositionFirstWithFewJoints) {
   const Arm arm = testing::DrawnArm(testing::MeasuringArm(), 1);
