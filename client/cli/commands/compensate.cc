@@ -7,6 +7,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "client/cli/commands/commands.h"
+#include "client/cli/configuration_changes.h"
 #include "client/cli/inputs.h"
 #include "client/cli/names.h"
 #include "client/cli/outcome.h"
@@ -119,6 +120,7 @@ absl::Status Deliver(const Invocation& invocation, const Options& options,
                      const v1::Nominal& nominal, const v1::CompensateRequest& request,
                      const v1::CompensateResponse& response, std::optional<OutputFile> output) {
   TRUEPOSE_RETURN_IF_ERROR(FaultsOfTargets(options, response));
+  WarnOfConfigurationChanges(invocation.console, nominal, request, response);
   if (output.has_value()) {
     TRUEPOSE_RETURN_IF_ERROR(output->Commit(formats::WriteCompensatedTargets(nominal, response)));
   }
