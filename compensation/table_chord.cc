@@ -109,11 +109,13 @@ ChordEnd Iterate(const Table& table, Newton* newton, const Pose& desired, Motion
     if (!(step < kLeastContraction * before)) return ChordEnd::kGivenUp;
     way += step;
     before = step;
-    const Twist bound = newton->BoundOfRemainder(way, step);
     // Only the grid says where joints may go: the first place is looked at in any case.
-    if (state->iterations > 0 && tolerance.IsMet(bound)) {
-      state->remainder = bound;
-      return ChordEnd::kReached;
+    if (state->iterations > 0) {
+      const Twist bound = newton->BoundOfRemainder(way, step);
+      if (tolerance.IsMet(bound)) {
+        state->remainder = bound;
+        return ChordEnd::kReached;
+      }
     }
     if (!Look(table, desired, *motions, state)) return ChordEnd::kOutside;
     if (tolerance.IsMet(state->remainder)) return ChordEnd::kReached;
