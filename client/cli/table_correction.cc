@@ -9,11 +9,13 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "client/cli/program_correction.h"
+#include "client/cli/same_robot.h"
 #include "client/cli/table_fault.h"
 #include "compensation/correct_by_table.h"
 #include "compensation/table_file.h"
 #include "convert/run.h"
 #include "core/base/fault.h"
+#include "core/base/status_macros.h"
 
 namespace truepose::cli {
 namespace {
@@ -80,13 +82,18 @@ compensation::Digest DigestOf(const v1::Nominal& nominal) {
 }  // namespace
 
 absl::StatusOr<ProgramCorrection> TableCorrection(const std::string& path,
-                                                  const v1::Nominal* nominal) {
+                                                  const TableRobot* robot) {
   compensation::TableExpectation expectation;
-  if (nominal != nullptr) expectation.nominal_digest = DigestOf(*nominal);
+  if (robot != nullptr) expectation.nominal_digest = DigestOf(robot->file.nominal);
   const auto file = std::make_shared<TableFile>();
   const compensation::TableReport report = TableFile::Map(path.c_str(), expectation, file.get());
   if (!report.ok()) return TableFaultStatus(report, path, absl::StrCat("--table ", path));
   const Table& table = file->table();
+  if (robot != nullptr) {
+    TRUEPOSE_RETURN_IF_ERROR(CheckSameRobot(
+        {absl::StrCat("--table ", path), "a table", std::string(table.header.robot.view())},
+        robot->file, robot->path));
+  }
   if (table.arm.measuring) {
     return FaultStatus("--table", absl::StrCat(path, ", of a measuring robot"),
                        "one of a robot that runs programs");

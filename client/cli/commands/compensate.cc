@@ -8,6 +8,7 @@
 #include "absl/strings/str_cat.h"
 #include "client/cli/commands/commands.h"
 #include "client/cli/inputs.h"
+#include "client/cli/large_changes.h"
 #include "client/cli/names.h"
 #include "client/cli/outcome.h"
 #include "client/cli/output_file.h"
@@ -119,6 +120,7 @@ absl::Status Deliver(const Invocation& invocation, const Options& options,
                      const v1::Nominal& nominal, const v1::CompensateRequest& request,
                      const v1::CompensateResponse& response, std::optional<OutputFile> output) {
   TRUEPOSE_RETURN_IF_ERROR(FaultsOfTargets(options, response));
+  WarnOfLargeChanges(invocation.console, nominal, request, response);
   if (output.has_value()) {
     TRUEPOSE_RETURN_IF_ERROR(output->Commit(formats::WriteCompensatedTargets(nominal, response)));
   }
