@@ -199,8 +199,9 @@ void AddCompensate(const Command& root) {
           "  truepose compensate targets.csv --local --robot ur10.yaml --calibration "
           "ur10.calibration.json")
       .Run(Command::Reach::kRemote, [options](const Invocation& invocation) {
-        return options->local ? CompensateLocally(invocation, *options)
-                              : CompensateOnServer(invocation, *options);
+        const auto compensate = options->local ? CompensateLocally : CompensateOnServer;
+        return AsFaultOfVerdict(
+            RenameFields(compensate(invocation, *options), {{"calibration.", "--calibration: "}}));
       });
 }
 

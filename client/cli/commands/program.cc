@@ -143,7 +143,9 @@ absl::Status Correct(const Invocation& invocation, const Options& options) {
   if (options.table.empty() == options.calibration.empty())
     return UsageError("give --calibration or --table, and not both");
   if (!options.table.empty()) return CorrectWithTable(invocation, options);
-  return options.local ? CorrectLocally(invocation, options) : CorrectOnServer(invocation, options);
+  const auto correct = options.local ? CorrectLocally : CorrectOnServer;
+  return AsFaultOfVerdict(
+      RenameFields(correct(invocation, options), {{"calibration.", "--calibration: "}}));
 }
 
 constexpr char kFooter[] =
