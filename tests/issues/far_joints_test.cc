@@ -43,6 +43,16 @@ TEST_F(FarJoints, AreSaidOnceWithRowAndJoint) {
   EXPECT_EQ(ran.err.find("a joint that changes"), ran.err.rfind("a joint that changes"));
 }
 
+// Of a straight wrist 1e-13 mm are left, which reads as solved; of a stretched elbow 0.5 mm are.
+TEST_F(FarJoints, ASingularRefusalHasFiguresWhereSomethingIsLeft) {
+  const Ran wrist = Compensate("10,-80,70,-60,0,-40\n");
+  EXPECT_EQ(wrist.code, 3);
+  EXPECT_THAT(wrist.err, HasSubstr("near a singularity: joints would have to move far"));
+  const Ran elbow = Compensate("10,-80,0,-60,50,-40\n");
+  EXPECT_EQ(elbow.code, 3);
+  EXPECT_THAT(elbow.err, HasSubstr("near a singularity (at best 0."));
+}
+
 TEST_F(FarJoints, OrdinaryCorrectionsAreNotWarnedOf) {
   EXPECT_THAT(Compensate(kGood).err, Not(HasSubstr("changes by more")));
 }
