@@ -150,6 +150,28 @@ TEST_F(TableRemoteTest, AVerdictThatLimitsIsRepeated) {
               Not(HasSubstr("within volume")));
 }
 
+// Would catch an exit code that depends on which of them, or which side, found the verdict.
+TEST_F(TableRemoteTest, DoNotApplyIsAFaultOfTheInput) {
+  const std::string exact = folder_.Path("exact.csv");
+  ASSERT_EQ(RunCli({"simulate", robot_, "--poses", "60", "--length-error-mm", "0",
+                    "--angle-error-deg", "0", "--output", exact})
+                .code,
+            0);
+  Demand({"session", "import", exact, "--robot", "ur10", "--session-id", kOtherUuid});
+  Demand({"calibrate", "--robot", "ur10", "--session", kOtherUuid, "--split", "even-odd"});
+  const std::string program = folder_.Write("p.src", "PTP {A1 1,A2 -80,A3 70,A4 9,A5 50,A6 0}\n");
+  for (std::vector<std::string> line : std::vector<std::vector<std::string>>{
+           {"compensate", Example("ur10_targets.csv")},
+           {"program", "correct", program, "--output", folder_.Path("out.src")},
+           {"table", "build", "--allow-draft"},
+           {"accuracy-map", "--spec", Example("ur10_cell.yaml")}}) {
+    line.insert(line.end(), {"--calibration", "ur10#2"});
+    const Ran refused = Remote(line);
+    EXPECT_EQ(refused.code, 3) << line[0] << ": " << refused.err;
+    EXPECT_THAT(refused.err, HasSubstr("do_not_apply")) << line[0];
+  }
+}
+
 // Would catch a spec that is set and not followed, or can't be taken away.
 TEST_F(TableRemoteTest, ARobotsSpecIsFollowed) {
   Demand(
