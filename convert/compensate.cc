@@ -30,6 +30,8 @@ absl::Status CheckTargets(const v1::CompensateRequest& request, int joints) {
   return faults.ToStatus();
 }
 
+constexpr double kNothingLeft = 1e-9;  // m, rad: below any robot's resolution
+
 using compensation::Correction;
 using compensation::ExactOptions;
 using compensation::Outcome;
@@ -124,6 +126,11 @@ class Compensator {
         LogRotation<double>(desired.R * uncompensated.R.transpose()).norm() * kDegPerRad);
   }
 
+  // Near a singularity joints may be known that would be right, but that are far away.
+  static bool IsSolved(const Correction& solved) {
+    return solved.position_error_m < kNothingLeft && solved.rotation_error_rad < kNothingLeft;
+  }
+
   // What is wrong, by how much, and what to do.
   Refused RefusedFor(const Correction& solved) const {
     const std::string left =
@@ -138,8 +145,9 @@ class Compensator {
                 solved.joint};
       case Outcome::kNearSingular:
         return {v1::COMPENSATION_NEAR_SINGULAR,
-                absl::StrCat("near a singularity (at best ", left,
-                             "): joints would have to move far; move the target or choose another "
+                absl::StrCat("near a singularity",
+                             IsSolved(solved) ? "" : absl::StrCat(" (at best ", left, ")"),
+                             ": joints would have to move far; move the target or choose another "
                              "configuration")};
       case Outcome::kInvalidArgument:
         return {v1::COMPENSATION_INVALID_TARGET, "values that are neither joints nor a pose"};

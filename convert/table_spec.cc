@@ -135,12 +135,13 @@ void CheckLimits(const v1::Nominal& nominal, const v1::JointRangeDomain& domain,
   for (int i = 0; i < domain.joints_size() && i < nominal.joints_size(); ++i) {
     const v1::Joint& joint = nominal.joints(i);
     const v1::JointRange& range = domain.joints(i);
+    const char* const unit = joint.type() == v1::PRISMATIC ? " m" : " rad";
     if (joint.has_lower() && range.lower() < joint.lower())
-      faults->Add(RangeField(i, "lower"), absl::StrCat(range.lower()),
-                  absl::StrCat("at least ", joint.lower(), ", the joint's limit"));
+      faults->Add(RangeField(i, "lower"), absl::StrCat(range.lower(), unit),
+                  absl::StrCat("at least ", joint.lower(), unit, ", the joint's limit"));
     if (joint.has_upper() && range.upper() > joint.upper())
-      faults->Add(RangeField(i, "upper"), absl::StrCat(range.upper()),
-                  absl::StrCat("at most ", joint.upper(), ", the joint's limit"));
+      faults->Add(RangeField(i, "upper"), absl::StrCat(range.upper(), unit),
+                  absl::StrCat("at most ", joint.upper(), unit, ", the joint's limit"));
   }
 }
 

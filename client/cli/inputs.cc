@@ -2,12 +2,10 @@
 
 #include <utility>
 
-#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
-#include "absl/strings/string_view.h"
-#include "absl/strings/strip.h"
 #include "client/cli/json.h"
 #include "client/cli/outcome.h"
+#include "client/cli/same_robot.h"
 #include "convert/digest.h"
 #include "convert/fixture.h"
 #include "convert/run.h"
@@ -42,16 +40,22 @@ bool DigestFits(const v1::Calibration& calibration, const std::string& nominal_d
          convert::CalibrationDigest(calibration.report().convention(), nominal_digest, calibration);
 }
 
+// "" of a revision that a server counts.
+std::string DigestOfRevision(const std::string& revision) {
+  const size_t at = revision.find(kLocalPrefix);
+  return at == std::string::npos ? "" : revision.substr(at + std::string(kLocalPrefix).size());
+}
+
 // "" for a calibration of that nominal, unchanged. The digest covers the nominal; of which one it
 // was made is known from the revision only where that is a digest itself.
 std::string WhyForeign(const v1::Calibration& calibration, const v1::Nominal& nominal) {
   const std::string& made_from = calibration.nominal_revision();
+  const std::string own = convert::NominalDigest(nominal), hex = DigestOfRevision(made_from);
   const std::string other = absl::StrCat("is of another nominal revision, ", made_from);
-  if (calibration.digest().empty()) return made_from == LocalRevision(nominal) ? "" : other;
-  if (DigestFits(calibration, convert::NominalDigest(nominal))) return "";
-  absl::string_view hex = made_from;
-  if (!absl::ConsumePrefix(&hex, kLocalPrefix)) return "was edited, or " + other;
-  return DigestFits(calibration, std::string(hex)) ? other : "was edited: its digest does not fit";
+  if (calibration.digest().empty()) return hex == own ? "" : other;
+  if (DigestFits(calibration, own)) return "";
+  if (hex.empty()) return "was edited, or " + other;
+  return DigestFits(calibration, hex) ? other : "was edited: its digest does not fit";
 }
 
 }  // namespace
@@ -124,19 +128,22 @@ absl::StatusOr<v1::Observe> ParseObserve(const std::string& text) {
   return OptionFault("--observe", text, "pose, point or point_axis");
 }
 
-std::string LocalRevision(const v1::Nominal& nominal) {
-  return absl::StrCat(kLocalPrefix, convert::NominalDigest(nominal));
+std::string LocalRevision(const formats::RobotFile& robot) {
+  const std::string name = NameOfRobot(robot);
+  return absl::StrCat(name, name.empty() ? "" : "/nominals/", kLocalPrefix,
+                      convert::NominalDigest(robot.nominal));
 }
 
-absl::Status CheckBelongsTogether(const v1::Calibration& calibration, const v1::Nominal& nominal,
-                                  const std::string& robot_path) {
-  const std::string why = WhyForeign(calibration, nominal);
+absl::Status CheckBelongsTogether(const v1::Calibration& calibration,
+                                  const formats::RobotFile& robot, const std::string& robot_path) {
+  const std::string why = WhyForeign(calibration, robot.nominal);
   if (why.empty()) return absl::OkStatus();
-  return FaultStatus("--robot",
-                     absl::StrCat(robot_path, " with nominal ", LocalRevision(nominal),
-                                  " beside a calibration that ", why),
-                     "the robot file from which the calibration was made, and that calibration "
-                     "unchanged");
+  return FaultStatus(
+      "--robot",
+      absl::StrCat(robot_path, " with nominal ", kLocalPrefix,
+                   convert::NominalDigest(robot.nominal), " beside a calibration that ", why),
+      "the robot file from which the calibration was made, and that calibration "
+      "unchanged");
 }
 
 absl::StatusOr<LocalCalibration> LoadLocalCalibration(const std::string& robot_path,
@@ -145,7 +152,9 @@ absl::StatusOr<LocalCalibration> LoadLocalCalibration(const std::string& robot_p
   if (robot_path.empty()) return UsageError("--local needs --robot FILE");
   TRUEPOSE_ASSIGN_OR_RETURN(formats::RobotFile robot, LoadRobot(robot_path, ends));
   TRUEPOSE_ASSIGN_OR_RETURN(v1::Calibration calibration, LoadCalibration(calibration_path));
-  TRUEPOSE_RETURN_IF_ERROR(CheckBelongsTogether(calibration, robot.nominal, robot_path));
+  TRUEPOSE_RETURN_IF_ERROR(CheckBelongsTogether(calibration, robot, robot_path));
+  TRUEPOSE_RETURN_IF_ERROR(CheckSameRobot(
+      {calibration_path, "a calibration", RobotOfCalibration(calibration)}, robot, robot_path));
   return LocalCalibration{std::move(robot), std::move(calibration)};
 }
 

@@ -47,13 +47,13 @@ absl::StatusOr<v1::Calibration> LoadCalibration(const std::string& path);
 absl::StatusOr<v1::Observe> ParseObserve(const std::string& text);
 
 // What Calibration.nominal_revision is for a robot that no server knows: "sha256:" and the
-// nominal's digest.
-std::string LocalRevision(const v1::Nominal& nominal);
+// nominal's digest, behind "robots/ur10/nominals/" where the robot has a name.
+std::string LocalRevision(const formats::RobotFile& robot);
 
 // A calibration made from another robot file, or whose file was changed, is a fault of `--robot`:
 // its digest does not fit. A simulated truth has no digest and is told by its revision.
-absl::Status CheckBelongsTogether(const v1::Calibration& calibration, const v1::Nominal& nominal,
-                                  const std::string& robot_path);
+absl::Status CheckBelongsTogether(const v1::Calibration& calibration,
+                                  const formats::RobotFile& robot, const std::string& robot_path);
 
 // What --robot and --calibration name of a command that works without a server.
 struct LocalCalibration {
@@ -61,7 +61,8 @@ struct LocalCalibration {
   v1::Calibration calibration;
 };
 
-// @returns a UsageError without a robot file; faults of either file; those of CheckBelongsTogether.
+// @returns a UsageError without a robot file; faults of either file; those of CheckBelongsTogether
+// and, as robots of one model have equal nominals, of CheckSameRobot (same_robot.h).
 absl::StatusOr<LocalCalibration> LoadLocalCalibration(const std::string& robot_path,
                                                       const formats::UrdfEnds& ends,
                                                       const std::string& calibration_path);

@@ -6,6 +6,7 @@
 
 #include "absl/status/statusor.h"
 #include "client/client.h"
+#include "formats/robot_file.h"
 #include "programs/correct.h"
 #include "truepose/v1/calibration.pb.h"
 #include "truepose/v1/robot.pb.h"
@@ -29,11 +30,17 @@ absl::StatusOr<ProgramCorrection> RemoteCorrection(const client::Client& client,
                                                    const v1::Nominal& nominal,
                                                    const v1::Calibration& calibration);
 
+// A robot file as --robot named it.
+struct TableRobot {
+  std::string path;
+  formats::RobotFile file;
+};
+
 // By a compensation table (`compensation/`), which needs nothing else.
-// @param nominal of the robot that the table has to be of; nullptr = whatever robot it is of.
+// @param robot that the table has to be of, by its nominal and, where both are known, its name;
+// nullptr = whatever robot it is of.
 // @returns kInvalidArgument with a fault of `--table` for a file that is no whole table, or one of
 // another robot, or of a measuring one.
-absl::StatusOr<ProgramCorrection> TableCorrection(const std::string& path,
-                                                  const v1::Nominal* nominal);
+absl::StatusOr<ProgramCorrection> TableCorrection(const std::string& path, const TableRobot* robot);
 
 }  // namespace truepose::cli

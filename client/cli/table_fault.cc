@@ -12,6 +12,16 @@ namespace {
 constexpr char kExpected[] =
     "a table that `truepose table build` wrote or `truepose table download` fetched, as it was";
 
+constexpr char kExpectedOfRobot[] =
+    "a table of that robot, or with --robot the file of the robot that the table is of";
+
+// An intact file of another robot is no damaged one.
+const char* ExpectedOf(compensation::TableFault fault) {
+  using compensation::TableFault;
+  const bool other = fault == TableFault::kOtherRobot || fault == TableFault::kOtherNominal;
+  return other ? kExpectedOfRobot : kExpected;
+}
+
 // The part before `separator`, which goes with it; nothing, and `text` as it was, where it isn't.
 absl::string_view TakeUntil(absl::string_view separator, absl::string_view* text) {
   const size_t at = text->find(separator);
@@ -34,7 +44,8 @@ absl::Status TableFaultStatus(const compensation::TableReport& report, const std
   if (!where.empty() && where != "file") absl::StrAppend(&field, ": ", where);
   absl::string_view expected = text;
   const absl::string_view found = TakeUntil(", expected ", &expected);
-  if (found.empty()) return FaultStatus(std::move(field), std::string(text), kExpected);
+  if (found.empty())
+    return FaultStatus(std::move(field), std::string(text), ExpectedOf(report.fault));
   return FaultStatus(std::move(field), std::string(found), std::string(expected));
 }
 

@@ -1,7 +1,10 @@
 #include "client/cli/verdict.h"
 
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "client/cli/outcome.h"
+#include "core/base/fault.h"
 
 namespace truepose::cli {
 
@@ -11,6 +14,12 @@ void WarnOfVerdict(const Console& console, const v1::CalibrationReport& report) 
   Warn(console, absl::StrCat("the calibration's verdict is apply within volume: right where it was "
                              "measured, not shown elsewhere",
                              reasons.empty() ? "" : " (" + reasons + ")"));
+}
+
+absl::Status AsFaultOfVerdict(const absl::Status& status) {
+  for (const Fault& fault : FaultsOf(status))
+    if (absl::StrContains(fault.found, "do_not_apply")) return AsInputFault(status);
+  return status;
 }
 
 }  // namespace truepose::cli

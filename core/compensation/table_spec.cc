@@ -17,16 +17,24 @@ constexpr int kFewestPoints = 1000;
 constexpr int64_t kLargestBytes = int64_t{64} << 20;
 constexpr double kRounding = 1e-9;  // a range that was typed in deg or mm may end beyond the limit
 
-std::string Text(const JointLimits& range) {
-  return absl::StrCat(range.lower, " to ", range.upper);
+// As a spec has joints: rad, or m of those that slide.
+const char* UnitOf(const Arm& arm, int joint) {
+  return arm.nominal.prismatic[joint] ? " m" : " rad";
 }
 
-void CheckRange(const JointLimits& range, const JointLimits& limits, const std::string& field,
+std::string Text(const JointLimits& range, const char* unit) {
+  return absl::StrCat(range.lower, " to ", range.upper, unit);
+}
+
+void CheckRange(const JointLimits& range, const Arm& arm, int joint, const std::string& field,
                 FaultList* faults) {
+  const JointLimits& limits = arm.limits[joint];
+  const char* const unit = UnitOf(arm, joint);
   if (!(std::isfinite(range.lower) && std::isfinite(range.upper) && range.lower < range.upper))
-    return faults->Add(field, Text(range), "two values, the smaller first");
+    return faults->Add(field, Text(range, unit), "two values, the smaller first");
   if (range.lower < limits.lower - kRounding || range.upper > limits.upper + kRounding)
-    faults->Add(field, Text(range), absl::StrCat("within the joint's limits ", Text(limits)));
+    faults->Add(field, Text(range, unit),
+                absl::StrCat("within the joint's limits ", Text(limits, unit)));
 }
 
 void CheckRanges(const TableSpec& spec, const Arm& arm, FaultList* faults) {
@@ -34,7 +42,7 @@ void CheckRanges(const TableSpec& spec, const Arm& arm, FaultList* faults) {
     return faults->Add("joint_ranges.joints", absl::StrCat(spec.ranges.size(), " ranges"),
                        absl::StrCat(arm.nominal.joints, ", one a joint"));
   for (int i = 0; i < arm.nominal.joints; ++i)
-    CheckRange(spec.ranges[i], arm.limits[i], absl::StrCat("joint_ranges.joints[", i, "]"), faults);
+    CheckRange(spec.ranges[i], arm, i, absl::StrCat("joint_ranges.joints[", i, "]"), faults);
 }
 
 // Revolute joints without limits get a turn; there is no such length for a prismatic one.
@@ -54,8 +62,9 @@ void CheckReference(const BoxDomain& box, const Arm& arm, FaultList* faults) {
   for (int i = 0; i < arm.nominal.joints; ++i) {
     const double q = box.reference(i);
     if (std::isfinite(q) && q >= arm.limits[i].lower && q <= arm.limits[i].upper) continue;
-    faults->Add(absl::StrCat("box.reference_joints[", i, "]"), absl::StrCat(q),
-                absl::StrCat("within the joint's limits ", Text(arm.limits[i])));
+    const char* const unit = UnitOf(arm, i);
+    faults->Add(absl::StrCat("box.reference_joints[", i, "]"), absl::StrCat(q, unit),
+                absl::StrCat("within the joint's limits ", Text(arm.limits[i], unit)));
   }
 }
 

@@ -107,20 +107,29 @@ absl::StatusOr<Table> Queue(Transaction& transaction, const Caller& caller,
   return QueueTable(transaction, wanted);
 }
 
+std::string WhyNotIt(const Table& table) {
+  if (table.has_delete_time())
+    return absl::StrCat(table.calibration(), ": its table was deleted, ", table.name());
+  if (table.state() == v1::TABLE_FAILED)
+    return absl::StrCat(table.name(), ", which FAILED: ", table.error().message());
+  return absl::StrCat(table.name(), ", which is still BUILDING by ", table.job());
+}
+
 // In words, for whoever waits for a table.
 absl::StatusOr<std::string> WhyNone(Snapshot& snapshot, const v1::Robot& robot) {
   if (robot.active_calibration().empty())
     return absl::StrCat(robot.name(), ", which has no active calibration");
-  TRUEPOSE_ASSIGN_OR_RETURN(const std::vector<Table> tables,
-                            AllOfRobot<Table>(snapshot, robot.name()));
-  std::string why = absl::StrCat(robot.active_calibration(), ", of which no table was asked for");
+  TRUEPOSE_ASSIGN_OR_RETURN(
+      const std::vector<Table> tables,
+      AllOfRobot<Table>(snapshot, robot.name(), /*only_open=*/false, /*show_deleted=*/true));
+  std::string why, deleted;
   for (const Table& table : tables) {
     if (table.calibration() != robot.active_calibration()) continue;
-    why = table.state() == v1::TABLE_FAILED
-              ? absl::StrCat(table.name(), ", which FAILED: ", table.error().message())
-              : absl::StrCat(table.name(), ", which is still BUILDING by ", table.job());
+    (table.has_delete_time() ? deleted : why) = WhyNotIt(table);
   }
-  return why;
+  if (!why.empty()) return why;
+  if (!deleted.empty()) return deleted;
+  return absl::StrCat(robot.active_calibration(), ", of which no table was asked for");
 }
 
 absl::StatusOr<Table> Active(Snapshot& snapshot, const std::string& name) {

@@ -37,17 +37,17 @@ absl::StatusOr<T> GetLiveResource(store::Snapshot& snapshot, const std::string& 
   return found;
 }
 
-// One page of those that are not deleted, oldest first; `robot` = "" is of all robots. `token` is
-// that of the page, and then that of the next one.
+// One page of those that are not deleted, with `show_deleted` of all, oldest first; `robot` = "" is
+// of all robots. `token` is that of the page, and then that of the next one.
 template <typename T>
 absl::StatusOr<std::vector<T>> PageOfResources(store::Snapshot& snapshot, const std::string& robot,
-                                               int size, std::string& token,
-                                               bool only_open = false) {
+                                               int size, std::string& token, bool only_open = false,
+                                               bool show_deleted = false) {
   std::vector<std::unique_ptr<T>> items;
   const resource::ListAsked asked{.parent = robot,
                                   .page = {size, token},
                                   .filter = "",
-                                  .show_deleted = false,
+                                  .show_deleted = show_deleted,
                                   .only_open = only_open};
   TRUEPOSE_ASSIGN_OR_RETURN(token, resource::List(snapshot, TypeOf<T>(), asked, [&] {
                               return items.emplace_back(std::make_unique<T>()).get();
@@ -58,15 +58,16 @@ absl::StatusOr<std::vector<T>> PageOfResources(store::Snapshot& snapshot, const 
 }
 
 // All of a robot. @param only_open those that time alone may change; no others are read.
+// @param show_deleted those that are deleted, too.
 template <typename T>
 absl::StatusOr<std::vector<T>> AllOfRobot(store::Snapshot& snapshot, const std::string& robot,
-                                          bool only_open = false) {
+                                          bool only_open = false, bool show_deleted = false) {
   constexpr int kPage = 1'000;
   std::vector<T> all;
   std::string token;
   do {
-    TRUEPOSE_ASSIGN_OR_RETURN(std::vector<T> page,
-                              PageOfResources<T>(snapshot, robot, kPage, token, only_open));
+    TRUEPOSE_ASSIGN_OR_RETURN(std::vector<T> page, PageOfResources<T>(snapshot, robot, kPage, token,
+                                                                      only_open, show_deleted));
     for (T& item : page) all.push_back(std::move(item));
   } while (!token.empty());
   return all;

@@ -293,11 +293,20 @@ TEST_F(LocalTest, DoNotApplyDoesNotReachARobot) {
   const Ran ran = Calibrate({"--split", "even-odd", "--output", calibration}, session);
   EXPECT_EQ(ran.code, 0) << ran.err;
   EXPECT_THAT(ran.out, HasSubstr("Next: find the cause first"));
-  const Ran refused = RunCli({"compensate", Example("ur10_targets.csv"), "--local", "--robot",
-                              robot_, "--calibration", calibration});
-  EXPECT_EQ(refused.code, 1);
-  EXPECT_EQ(refused.out, "");
-  EXPECT_THAT(refused.err, HasSubstr("do_not_apply"));
+  // One exit code, whatever the command: a fault of the input.
+  const std::string output = folder_.Path("out"), cell = Example("ur10_cell.yaml"),
+                    program = folder_.Write("p.src", "PTP {A1 1,A2 -80,A3 70,A4 9,A5 50,A6 0}\n");
+  for (std::vector<std::string> line :
+       std::vector<std::vector<std::string>>{{"compensate", Example("ur10_targets.csv")},
+                                             {"program", "correct", program, "--output", output},
+                                             {"table", "build", "--spec", cell, "--output", output},
+                                             {"accuracy-map", "--spec", cell}}) {
+    line.insert(line.end(), {"--local", "--robot", robot_, "--calibration", calibration});
+    const Ran refused = RunCli(line);
+    EXPECT_EQ(refused.code, 3) << line[0];
+    EXPECT_EQ(refused.out, "") << line[0];
+    EXPECT_THAT(refused.err, HasSubstr("--calibration: report.verdict: found do_not_apply"));
+  }
 }
 
 }  // namespace

@@ -87,14 +87,36 @@ TEST_F(ProgramTableTest, JointsAreThoseOfTheTable) {
   EXPECT_NE(folder_.Read("out.src"), Mark() + Ptp(deg));
 }
 
-// Would catch extrapolation, and a reason that names no joint.
+// Would catch extrapolation, and a reason that names no joint or leaves out by how much.
 TEST_F(ProgramTableTest, OutsideTheDomainIsRefused) {
   std::vector<double> deg = MiddleDeg();
   deg[2] += 720;
   const Ran ran = Correct(folder_.Write("p.src", Ptp(MiddleDeg()) + Ptp(deg)));
   EXPECT_EQ(ran.code, 3);
-  EXPECT_THAT(ran.err, HasSubstr("p.src:2: PTP: outside the domain of the table in q3"));
+  const compensation::TableAxis& axis = content_.axis[2];
+  EXPECT_THAT(
+      ran.err,
+      HasSubstr(absl::StrFormat(
+          "p.src:2: PTP: outside the domain of the table in q3 %.2f, range %.2f to %.2f deg",
+          deg[2], axis.lower * 180 / std::numbers::pi, axis.upper * 180 / std::numbers::pi)));
   EXPECT_EQ(folder_.Read("out.src"), "");
+}
+
+// Would catch a limit that is named without the joint's value and range.
+TEST_F(ProgramTableTest, BeyondALimitIsRefusedWithValueAndRange) {
+  const std::vector<double> deg = MiddleDeg();
+  for (compensation::JointLimits& limits : content_.arm.limits)
+    limits = {deg[4] * std::numbers::pi / 180 + 1, 10};  // which joint 5 never is within
+  for (int j = 0; j < 6; ++j)
+    if (j != 4) content_.arm.limits[static_cast<size_t>(j)] = {-10, 10};
+  const std::vector<std::byte> bytes = compensation::Encode(content_);
+  folder_.Write("t.tpct", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  const Ran ran = Correct(folder_.Write("p.src", Ptp(deg)));
+  EXPECT_EQ(ran.code, 3);
+  EXPECT_THAT(ran.err, HasSubstr("joint 5 is beyond its limits: "));
+  EXPECT_THAT(ran.err,
+              HasSubstr(absl::StrFormat(", range %.2f to %.2f deg", deg[4] + 180 / std::numbers::pi,
+                                        1800 / std::numbers::pi)));
 }
 
 // Would catch a table that is not whole, or of another robot, being used.
@@ -106,7 +128,9 @@ TEST_F(ProgramTableTest, OtherFilesAreRefused) {
   EXPECT_THAT(
       other.err,
       HasSubstr("--table " + table_ +
-                ": other nominal robot: nominal_digest: found that of another nominal robot"));
+                ": other nominal robot: nominal_digest: found that of another nominal robot, "
+                "expected a table of that robot, or with --robot the file of the robot that the "
+                "table is of"));
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
   folder_.Write("t.tpct", bytes);
   const Ran damaged = Correct(program);

@@ -95,6 +95,8 @@ TEST_F(ResourceTest, UpdatesChangeWhatTheyName) {
   Demand({"instrument", "create", "a", "--set", "serial=1", "model=AT960"});
   const auto before = OneObject(Demand({"instrument", "show", "a", "--json"}).out);
   Demand({"instrument", "update", "a", "--set", "serial=2", "--dry-run"});
+  EXPECT_THAT(Demand({"instrument", "delete", "a", "--dry-run"}).out,
+              AllOf(HasSubstr("Dry run: nothing was changed."), Not(HasSubstr("brings it back"))));
   const auto after_dry = OneObject(Demand({"instrument", "show", "a", "--json"}).out);
   EXPECT_EQ(At(after_dry, "etag"), At(before, "etag"));
   Demand({"instrument", "update", "a", "--set", "serial=2", "--etag", At(before, "etag")});

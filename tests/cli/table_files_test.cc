@@ -174,6 +174,24 @@ TEST_F(TableFilesTest, FaultsAreInTheUnitsThatWereWritten) {
   EXPECT_THAT(error_of({"box.max_z_mm="}), HasSubstr("--spec: box.max_z_mm: found nothing"));
 }
 
+// Would catch a verdict that limits the calibration (here: no control set) and that nobody hears of
+// who makes a table or a map of it.
+TEST_F(TableFilesTest, AVerdictThatLimitsIsRepeated) {
+  const std::string warning = "verdict is apply within volume";
+  EXPECT_THAT(Build().err, HasSubstr(warning));
+  EXPECT_THAT(Must(Joined({"accuracy-map", "--points", "2x2x2"}, Sources())).err,
+              HasSubstr(warning));
+}
+
+// Would catch a fault of a file that nobody named.
+TEST_F(TableFilesTest, FaultsNameSpecOnlyWhereOneWasGiven) {
+  const std::vector<std::string> line = {"table", "estimate",      "--local",   "--robot",
+                                         robot_,  "--calibration", calibration_};
+  EXPECT_THAT(RunCli(line).err, HasSubstr("--set: largest_bytes: found a table of "));
+  EXPECT_THAT(RunCli(Joined(line, {"--set", "verification_points=3"})).err,
+              HasSubstr("--set: verification_points: found 3"));
+}
+
 // Would catch an export that loses nodes or digits.
 TEST_F(TableFilesTest, ExportsEveryNode) {
   Build();

@@ -93,12 +93,15 @@ TEST_F(TableRemoteTest, RefusalsAreInTheWordsOfTheCommandLine) {
   const Ran draft = Remote({"table", "build", "--calibration", "ur10#1"});
   EXPECT_EQ(draft.code, 1);
   EXPECT_THAT(draft.err, HasSubstr("--calibration: found robots/ur10/calibrations/1, which is a "
-                                   "DRAFT"));
+                                   "DRAFT, expected an approved one, or --allow-draft"));
   Demand({"table", "build", "--calibration", "ur10#1", "--allow-draft"});
   const Ran faulty = Remote({"table", "build", "--calibration", "ur10#1", "--allow-draft", "--spec",
                              Spec("verification_points: 3\n")});
   EXPECT_EQ(faulty.code, 3);
   EXPECT_THAT(faulty.err, HasSubstr("--spec: verification_points"));
+  const Ran set = Remote({"table", "build", "--calibration", "ur10#1", "--allow-draft", "--set",
+                          "verification_points=3"});
+  EXPECT_THAT(set.err, HasSubstr("--set: verification_points")) << "no --spec was given";
   EXPECT_EQ(Remote({"table", "build"}).code, 2);
   EXPECT_EQ(Remote({"table", "show", "ur10"}).code, 6);
 }
@@ -112,6 +115,61 @@ TEST_F(TableRemoteTest, AFailedBuildFails) {
   EXPECT_THAT(failed.err, HasSubstr("largest_bytes"));
   EXPECT_FALSE(std::filesystem::exists(folder_.Path("t.tpct")));
   EXPECT_THAT(Demand({"table", "list"}).out, HasSubstr("failed"));
+}
+
+// Would catch a job that nobody hears of, and a way on that fails again.
+TEST_F(TableRemoteTest, ActivationSaysThatATableFollows) {
+  EXPECT_THAT(Demand({"calibration", "approve", "ur10#1", "--reason", "looked at"}).out,
+              Not(HasSubstr("A table of it")));
+  Demand({"robot", "update", "ur10", "--table-spec", Spec("seed: 13\n")});
+  const std::vector<std::string> activate = {"calibration", "activate", "ur10#1"};
+  EXPECT_THAT(Demand({"calibration", "activate", "ur10#1", "--dry-run"}).out,
+              Not(HasSubstr("A table of it")));
+  EXPECT_THAT(Demand(activate).out,
+              HasSubstr("A table of it is built, by the robot's table_spec. How far it is: "
+                        "truepose table list --robot ur10\n"));
+  const Ran built = Remote({"table", "build", "--robot", "ur10"});  // waits for that job
+  EXPECT_THAT(built.err, HasSubstr("largest_bytes"));
+  const auto list = OneObject(Demand({"table", "list", "--json"}).out);
+  const std::string shown = Demand({"table", "show", At(list, "compensation_tables.0.name")}).out;
+  EXPECT_THAT(shown, HasSubstr("Next: change the spec"));
+  EXPECT_THAT(shown, HasSubstr("truepose robot update ur10 --table-spec FILE"));
+}
+
+TEST_F(TableRemoteTest, NoTableIsSpokenOfWithoutASpec) {
+  Demand({"calibration", "approve", "ur10#1", "--reason", "looked at"});
+  EXPECT_THAT(Demand({"calibration", "activate", "ur10#1"}).out, Not(HasSubstr("A table of it")));
+}
+
+// Would catch a verdict that limits the calibration and that nobody hears of who builds its table.
+TEST_F(TableRemoteTest, AVerdictThatLimitsIsRepeated) {
+  Demand({"calibrate", "--robot", "ur10", "--session", kUuid});  // without a control set
+  const Ran limited = Demand({"table", "build", "--calibration", "ur10#2", "--allow-draft"});
+  EXPECT_THAT(limited.err, HasSubstr("verdict is apply within volume"));
+  EXPECT_THAT(Demand({"table", "build", "--calibration", "ur10#1", "--allow-draft"}).err,
+              Not(HasSubstr("within volume")));
+}
+
+// Would catch an exit code that depends on which of them, or which side, found the verdict.
+TEST_F(TableRemoteTest, DoNotApplyIsAFaultOfTheInput) {
+  const std::string exact = folder_.Path("exact.csv");
+  ASSERT_EQ(RunCli({"simulate", robot_, "--poses", "60", "--length-error-mm", "0",
+                    "--angle-error-deg", "0", "--output", exact})
+                .code,
+            0);
+  Demand({"session", "import", exact, "--robot", "ur10", "--session-id", kOtherUuid});
+  Demand({"calibrate", "--robot", "ur10", "--session", kOtherUuid, "--split", "even-odd"});
+  const std::string program = folder_.Write("p.src", "PTP {A1 1,A2 -80,A3 70,A4 9,A5 50,A6 0}\n");
+  for (std::vector<std::string> line : std::vector<std::vector<std::string>>{
+           {"compensate", Example("ur10_targets.csv")},
+           {"program", "correct", program, "--output", folder_.Path("out.src")},
+           {"table", "build", "--allow-draft"},
+           {"accuracy-map", "--spec", Example("ur10_cell.yaml")}}) {
+    line.insert(line.end(), {"--calibration", "ur10#2"});
+    const Ran refused = Remote(line);
+    EXPECT_EQ(refused.code, 3) << line[0] << ": " << refused.err;
+    EXPECT_THAT(refused.err, HasSubstr("do_not_apply")) << line[0];
+  }
 }
 
 // Would catch a spec that is set and not followed, or can't be taken away.
@@ -134,8 +192,23 @@ TEST_F(TableRemoteTest, DeleteAndUndelete) {
   const Ran built = Demand({"table", "build", "--robot", "ur10"});
   const size_t begin = built.out.find("ur10/");
   const std::string name = built.out.substr(begin, std::string("ur10/").size() + 36);
+  const Ran dry = Demand({"table", "delete", name, "--dry-run"});
+  EXPECT_EQ(dry.out, "Would delete table " + name + "\nDry run: nothing was changed.\n");
+  const Ran there = Remote({"table", "undelete", name.substr(0, 16)});
+  EXPECT_EQ(there.code, 6);
+  EXPECT_THAT(there.err, HasSubstr("which is not deleted, expected a deleted table"));
+  const std::string digits = name.substr(std::string("ur10/").size(), 8);
+  EXPECT_THAT(Remote({"table", "undelete", digits}).err,
+              HasSubstr("TABLE: found " + digits + ", which is not deleted"));
+  const Ran shorter = Remote({"table", "undelete", digits.substr(0, 5)});
+  EXPECT_EQ(shorter.code, 3);
+  EXPECT_THAT(shorter.err, HasSubstr("which is no robot and too short for a table"));
   Demand({"table", "delete", name});
   EXPECT_THAT(Demand({"table", "list"}).out, HasSubstr("No tables"));
+  EXPECT_THAT(Remote({"table", "show", digits}).err, HasSubstr("which is deleted, expected"));
+  EXPECT_THAT(Remote({"table", "show", "ur10"}).err, HasSubstr("its table was deleted"));
+  EXPECT_THAT(Demand({"table", "undelete", name, "--dry-run"}).out,
+              HasSubstr("Dry run: nothing was changed."));
   EXPECT_EQ(Remote({"table", "show", "ur10"}).code, 6);
   Demand({"table", "undelete", name});
   EXPECT_THAT(Demand({"table", "show", "ur10"}).out, HasSubstr(name));

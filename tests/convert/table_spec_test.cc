@@ -12,6 +12,7 @@
 namespace truepose::convert {
 namespace {
 
+using ::testing::HasSubstr;
 using ::testing::UnorderedElementsAre;
 
 v1::CompensationTableSpec Spec(const std::string& text) {
@@ -144,6 +145,9 @@ TEST(TableDomain, TheNominalChainTellsWhatCannotBe) {
   bent.mutable_box()->set_reference_joints(1, 2);
   EXPECT_THAT(Fields(CheckTableDomain(limited, bent)),
               UnorderedElementsAre("box.reference_joints[1]"));
+  // Catches: numbers of which nobody knows the unit.
+  EXPECT_THAT(std::string(CheckTableDomain(limited, bent).message()),
+              HasSubstr("found 2 rad, expected within the joint's limits -1 to 1 rad"));
 }
 
 }  // namespace

@@ -21,6 +21,7 @@
 #include "client/cli/remote.h"
 #include "client/cli/reply.h"
 #include "client/cli/table.h"
+#include "client/cli/verdict.h"
 #include "core/base/fault.h"
 #include "core/base/status_macros.h"
 
@@ -112,6 +113,7 @@ absl::Status Deliver(const Invocation& invocation, const Options& options, const
   TRUEPOSE_ASSIGN_OR_RETURN(std::optional<OutputFile> svg, Open(options.svg, "--svg"));
   auto map = convert::RunAccuracyMap(nominal, calibration, spec);
   if (!map.ok()) return AsFaultOfInput(RenameFields(map.status(), Fields()));
+  WarnOfVerdict(invocation.console, calibration.report());
   map->set_robot(robot);
   if (csv) TRUEPOSE_RETURN_IF_ERROR(csv->Commit(Csv(*map)));
   if (svg)

@@ -51,7 +51,7 @@ absl::StatusOr<v1::CalibrationInput> LoadInput(const Invocation& invocation,
                    {options.euler, ColumnsInUse(options.calibration)}, invocation.console));
   v1::CalibrationInput input;
   input.set_robot(RobotName(robot.robot_id));
-  input.set_nominal_revision(LocalRevision(robot.nominal));
+  input.set_nominal_revision(LocalRevision(robot));
   *input.mutable_nominal() = robot.nominal;
   *input.mutable_options() = options.calibration;
   for (v1::SessionInput& session : sessions) *input.add_sessions() = std::move(session);

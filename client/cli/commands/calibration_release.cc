@@ -69,18 +69,35 @@ absl::Status WithReleaseHints(const absl::Status& status) {
                   "`truepose calibration history NAME` shows how far it is.");
 }
 
-using Ask = std::function<absl::StatusOr<v1::Calibration>(const client::Client&)>;
+// Of a robot with a table_spec a table follows; a robot that can't be read has said nothing of one.
+std::string TableThatFollows(const client::Client& client, const v1::Calibration& calibration) {
+  if (calibration.state() != v1::ACTIVE) return "";
+  v1::GetRobotRequest request;
+  request.set_name(RobotOf(calibration.name()));
+  const auto robot = client.GetRobot(request);
+  if (!robot.ok() || !robot->has_table_spec()) return "";
+  return absl::StrCat("A table of it is built, by the robot's table_spec. How far it is: truepose ",
+                      "table list --robot ", ShortName(robot->name()), "\n");
+}
 
-absl::Status AskAndReply(const Invocation& invocation, const char* hint, bool dry_run,
-                         const Ask& ask) {
+using Ask = std::function<absl::StatusOr<v1::Calibration>(const client::Client&)>;
+// What is said below the calibration.
+using Tell = std::function<std::string(const client::Client&, const v1::Calibration&)>;
+
+absl::Status AskAndReply(const Invocation& invocation, const char* hint, const Ask& ask,
+                         const Tell& tell) {
   return WithServer(invocation, hint, [&](const client::Client& client) -> absl::Status {
     const absl::StatusOr<v1::Calibration> calibration = ask(client);
     if (!calibration.ok()) return WithReleaseHints(calibration.status());
     return Reply(invocation, *calibration, [&] {
-      return absl::StrCat(ReleaseText(*calibration),
-                          dry_run ? "Dry run: nothing was changed.\n" : "");
+      return absl::StrCat(ReleaseText(*calibration), tell(client, *calibration));
     });
   });
+}
+
+Tell AfterStep(bool dry_run) {
+  if (!dry_run) return TableThatFollows;
+  return [](const auto&, const auto&) { return "Dry run: nothing was changed.\n"; };
 }
 
 // Approve, reject and activate have requests of the same form.
@@ -93,8 +110,10 @@ absl::Status Release(const Invocation& invocation, const Options& options,
   request.set_reason(options.reason);
   request.set_etag(options.etag);
   request.set_validate_only(options.dry_run);
-  return AskAndReply(invocation, kCalibrationHint, options.dry_run,
-                     [&](const client::Client& client) { return (client.*method)(request); });
+  return AskAndReply(
+      invocation, kCalibrationHint,
+      [&](const client::Client& client) { return (client.*method)(request); },
+      AfterStep(options.dry_run));
 }
 
 absl::Status RollBack(const Invocation& invocation, const Options& options) {
@@ -105,16 +124,19 @@ absl::Status RollBack(const Invocation& invocation, const Options& options) {
   if (!options.from.empty()) {
     TRUEPOSE_ASSIGN_OR_RETURN(*request.mutable_from(), CalibrationName(options.from));
   }
-  return AskAndReply(invocation, kRobotHint, options.dry_run, [&](const client::Client& client) {
-    return client.RollBackCalibration(request);
-  });
+  return AskAndReply(
+      invocation, kRobotHint,
+      [&](const client::Client& client) { return client.RollBackCalibration(request); },
+      AfterStep(options.dry_run));
 }
 
 absl::Status History(const Invocation& invocation, const Options& options) {
   v1::GetCalibrationRequest request;
   TRUEPOSE_ASSIGN_OR_RETURN(*request.mutable_name(), CalibrationName(options.name));
-  return AskAndReply(invocation, kCalibrationHint, /*dry_run=*/false,
-                     [&](const client::Client& client) { return client.GetCalibration(request); });
+  return AskAndReply(
+      invocation, kCalibrationHint,
+      [&](const client::Client& client) { return client.GetCalibration(request); },
+      [](const auto&, const auto&) { return ""; });
 }
 
 void AddReasonAndDryRun(const Command& command, Options* options) {

@@ -9,6 +9,7 @@
 #include "client/cli/commands/commands.h"
 #include "client/cli/configuration_changes.h"
 #include "client/cli/inputs.h"
+#include "client/cli/large_changes.h"
 #include "client/cli/names.h"
 #include "client/cli/outcome.h"
 #include "client/cli/output_file.h"
@@ -121,6 +122,7 @@ absl::Status Deliver(const Invocation& invocation, const Options& options,
                      const v1::CompensateResponse& response, std::optional<OutputFile> output) {
   TRUEPOSE_RETURN_IF_ERROR(FaultsOfTargets(options, response));
   WarnOfConfigurationChanges(invocation.console, nominal, request, response);
+  WarnOfLargeChanges(invocation.console, nominal, request, response);
   if (output.has_value()) {
     TRUEPOSE_RETURN_IF_ERROR(output->Commit(formats::WriteCompensatedTargets(nominal, response)));
   }
@@ -199,8 +201,9 @@ void AddCompensate(const Command& root) {
           "  truepose compensate targets.csv --local --robot ur10.yaml --calibration "
           "ur10.calibration.json")
       .Run(Command::Reach::kRemote, [options](const Invocation& invocation) {
-        return options->local ? CompensateLocally(invocation, *options)
-                              : CompensateOnServer(invocation, *options);
+        const auto compensate = options->local ? CompensateLocally : CompensateOnServer;
+        return AsFaultOfVerdict(
+            RenameFields(compensate(invocation, *options), {{"calibration.", "--calibration: "}}));
       });
 }
 

@@ -128,13 +128,14 @@ absl::Status CorrectOnServer(const Invocation& invocation, const Options& option
 
 absl::Status CorrectWithTable(const Invocation& invocation, const Options& options) {
   TRUEPOSE_ASSIGN_OR_RETURN(const ProgramFiles files, LoadProgram(options));
-  formats::RobotFile robot;
+  TableRobot robot;
+  robot.path = options.robot;
   if (!options.robot.empty()) {
-    TRUEPOSE_ASSIGN_OR_RETURN(robot, LoadRobot(options.robot, options.ends));
+    TRUEPOSE_ASSIGN_OR_RETURN(robot.file, LoadRobot(options.robot, options.ends));
   }
   TRUEPOSE_ASSIGN_OR_RETURN(
       const ProgramCorrection correction,
-      TableCorrection(options.table, options.robot.empty() ? nullptr : &robot.nominal));
+      TableCorrection(options.table, options.robot.empty() ? nullptr : &robot));
   return CorrectFile(invocation, options, files, correction);
 }
 
@@ -142,7 +143,9 @@ absl::Status Correct(const Invocation& invocation, const Options& options) {
   if (options.table.empty() == options.calibration.empty())
     return UsageError("give --calibration or --table, and not both");
   if (!options.table.empty()) return CorrectWithTable(invocation, options);
-  return options.local ? CorrectLocally(invocation, options) : CorrectOnServer(invocation, options);
+  const auto correct = options.local ? CorrectLocally : CorrectOnServer;
+  return AsFaultOfVerdict(
+      RenameFields(correct(invocation, options), {{"calibration.", "--calibration: "}}));
 }
 
 constexpr char kFooter[] =

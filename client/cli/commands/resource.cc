@@ -122,7 +122,10 @@ absl::Status SetDeleted(const Invocation& invocation, const ResourceKind& kind,
     call.Set("validate_only", options.validate_only);
     const std::string next = absl::StrCat("`truepose ", kind.word, " undelete ",
                                           ShortResourceName(kind, name), "` brings it back.\n");
-    return RunAndReply(invocation, kind, client, call, deleted ? next : "");
+    const std::string last = options.validate_only ? "Dry run: nothing was changed.\n"
+                             : deleted             ? next
+                                                   : "";
+    return RunAndReply(invocation, kind, client, call, last);
   });
 }
 

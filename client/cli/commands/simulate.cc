@@ -61,13 +61,13 @@ absl::Status AsTyped(const absl::Status& status) {
                                {"encoder_resolution", "--encoder-resolution-deg (in rad)"}});
 }
 
-absl::StatusOr<v1::Nominal> RobotToSimulate(const Options& options) {
+absl::StatusOr<formats::RobotFile> RobotToSimulate(const Options& options) {
   if (options.robot.empty() != options.measuring_robot) {
     return UsageError("simulate needs a robot: either FILE or --measuring-robot");
   }
-  if (options.measuring_robot) return convert::MeasuringRobot();
-  TRUEPOSE_ASSIGN_OR_RETURN(formats::RobotFile file, LoadRobot(options.robot, options.ends));
-  return std::move(file.nominal);
+  if (options.measuring_robot)
+    return formats::RobotFile{"", convert::MeasuringRobot(), formats::FieldLines()};
+  return LoadRobot(options.robot, options.ends);
 }
 
 v1::FrameEstimate Frame(v1::ParameterGroup group, const v1::Pose& pose) {
@@ -79,9 +79,9 @@ v1::FrameEstimate Frame(v1::ParameterGroup group, const v1::Pose& pose) {
 
 // The truth has the form of a calibration, so that `evaluate --local` and `compensate --local` take
 // it.
-v1::Calibration Truth(const v1::Nominal& nominal, const convert::Simulation& simulation) {
+v1::Calibration Truth(const formats::RobotFile& robot, const convert::Simulation& simulation) {
   v1::Calibration truth;
-  truth.set_nominal_revision(LocalRevision(nominal));
+  truth.set_nominal_revision(LocalRevision(robot));
   for (const v1::InternalParameter& parameter : simulation.truth)
     *truth.add_internal_parameters() = parameter;
   truth.mutable_report()->set_convention(simulation.convention);
@@ -96,14 +96,14 @@ absl::StatusOr<std::optional<OutputFile>> Open(const std::string& path, const st
   return std::optional<OutputFile>(std::move(file));
 }
 
-absl::Status WriteFiles(const Options& options, const v1::Nominal& nominal,
+absl::Status WriteFiles(const Options& options, const formats::RobotFile& robot,
                         const convert::Simulation& simulation, const std::string& csv) {
   TRUEPOSE_ASSIGN_OR_RETURN(std::optional<OutputFile> output, Open(options.output, "--output"));
   TRUEPOSE_ASSIGN_OR_RETURN(std::optional<OutputFile> truth, Open(options.truth, "--truth"));
   if (output.has_value()) TRUEPOSE_RETURN_IF_ERROR(output->Commit(csv));
   if (!truth.has_value()) return absl::OkStatus();
   TRUEPOSE_ASSIGN_OR_RETURN(const std::string json,
-                            ToJson(Truth(nominal, simulation), /*pretty=*/true));
+                            ToJson(Truth(robot, simulation), /*pretty=*/true));
   return truth->Commit(json);
 }
 
@@ -119,14 +119,14 @@ std::string Text(const Options& options, const convert::Simulation& simulation,
 }
 
 absl::Status Simulate(const Invocation& invocation, const Options& options) {
-  TRUEPOSE_ASSIGN_OR_RETURN(const v1::Nominal nominal, RobotToSimulate(options));
+  TRUEPOSE_ASSIGN_OR_RETURN(const formats::RobotFile robot, RobotToSimulate(options));
   const absl::StatusOr<convert::Simulation> simulation =
-      convert::RunSimulation(nominal, InSiUnits(options));
+      convert::RunSimulation(robot.nominal, InSiUnits(options));
   if (!simulation.ok()) return AsTyped(simulation.status());
   const auto& readings = simulation->session.readings();
-  const std::string csv = formats::WriteSessionFile(nominal, simulation->session.session(),
+  const std::string csv = formats::WriteSessionFile(robot.nominal, simulation->session.session(),
                                                     {readings.begin(), readings.end()});
-  TRUEPOSE_RETURN_IF_ERROR(WriteFiles(options, nominal, *simulation, csv));
+  TRUEPOSE_RETURN_IF_ERROR(WriteFiles(options, robot, *simulation, csv));
   return Reply(invocation, simulation->session, [&] { return Text(options, *simulation, csv); });
 }
 

@@ -75,7 +75,7 @@ absl::StatusOr<v1::CompensationTableSpec> LoadTableSpec(const TableOptions& opti
   }
   TRUEPOSE_ASSIGN_OR_RETURN(const auto fields, SplitSets(options.set));
   TRUEPOSE_RETURN_IF_ERROR(formats::SetMessageFields(fields, "--set", spec, given));
-  TRUEPOSE_RETURN_IF_ERROR(CheckTableSpec(spec, given, "--spec: "));
+  TRUEPOSE_RETURN_IF_ERROR(CheckTableSpec(spec, given, SpecPlace(options)));
   return spec;
 }
 
@@ -91,17 +91,16 @@ absl::StatusOr<v1::CompensationTableInput> LoadTableInput(const TableOptions& op
   return input;
 }
 
-const Renaming& TableFields() {
-  static const Renaming kFields = {{"calibration.", "--calibration: "},
-                                   {"joint_ranges", "--spec: joint_ranges"},
-                                   {"box", "--spec: box"},
-                                   {"position_tolerance_m", "--spec: position_tolerance_m"},
-                                   {"rotation_tolerance_rad", "--spec: rotation_tolerance_rad"},
-                                   {"smallest_singular_value", "--spec: smallest_singular_value"},
-                                   {"verification_points", "--spec: verification_points"},
-                                   {"largest_bytes", "--spec: largest_bytes"},
-                                   {"points", "--points"}};
-  return kFields;
+std::string SpecPlace(const TableOptions& options) {
+  return options.spec.empty() ? "--set: " : "--spec: ";
+}
+
+Renaming TableFields(const std::string& place) {
+  Renaming fields = {{"calibration.", "--calibration: "}, {"points", "--points"}};
+  for (const char* field : {"joint_ranges", "box", "position_tolerance_m", "rotation_tolerance_rad",
+                            "smallest_singular_value", "verification_points", "largest_bytes"})
+    fields.emplace_back(field, absl::StrCat(place, field));
+  return fields;
 }
 
 absl::StatusOr<compensation::TableFile> LoadTable(const std::string& path) {

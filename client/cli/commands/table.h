@@ -42,8 +42,12 @@ absl::StatusOr<v1::CompensationTableSpec> LoadTableSpec(const TableOptions& opti
 // The same message as a server's job has.
 absl::StatusOr<v1::CompensationTableInput> LoadTableInput(const TableOptions& options);
 
+// What stands before the faults of a spec: "--spec: ", or "--set: " where no file was named.
+std::string SpecPlace(const TableOptions& options);
+
 // Faults of the spec name fields of the message; people typed options.
-const Renaming& TableFields();
+// @param place as SpecPlace.
+Renaming TableFields(const std::string& place);
 
 // A file that is whole and intact, or a fault of it that says why not.
 absl::StatusOr<compensation::TableFile> LoadTable(const std::string& path);

@@ -13,6 +13,7 @@
 #include "client/cli/progress.h"
 #include "client/cli/reply.h"
 #include "client/cli/table_text.h"
+#include "client/cli/verdict.h"
 #include "core/base/status_macros.h"
 
 namespace truepose::cli {
@@ -35,8 +36,10 @@ absl::Status BuildLocally(const Invocation& invocation, const TableOptions& opti
   TRUEPOSE_ASSIGN_OR_RETURN(const v1::CompensationTableInput input, LoadTableInput(options));
   TRUEPOSE_ASSIGN_OR_RETURN(OutputFile output, OutputFile::Create(options.output, "--output"));
   const absl::StatusOr<convert::TableFile> file = BuildWithProgress(invocation, input);
-  if (!file.ok()) return AsFaultOfInput(RenameFields(file.status(), TableFields()));
+  if (!file.ok())
+    return AsFaultOfInput(RenameFields(file.status(), TableFields(SpecPlace(options))));
   TRUEPOSE_RETURN_IF_ERROR(output.Commit(file->bytes));
+  WarnOfVerdict(invocation.console, input.calibration().report());
   return Reply(invocation, file->header, [&] {
     return absl::StrCat(TableText(file->header), "\nWritten to ", options.output, "\n");
   });
@@ -45,7 +48,8 @@ absl::Status BuildLocally(const Invocation& invocation, const TableOptions& opti
 absl::Status EstimateLocally(const Invocation& invocation, const TableOptions& options) {
   TRUEPOSE_ASSIGN_OR_RETURN(const v1::CompensationTableInput input, LoadTableInput(options));
   const auto estimate = convert::RunTableEstimate(input);
-  if (!estimate.ok()) return AsFaultOfInput(RenameFields(estimate.status(), TableFields()));
+  if (!estimate.ok())
+    return AsFaultOfInput(RenameFields(estimate.status(), TableFields(SpecPlace(options))));
   return Reply(invocation, *estimate, [&] { return EstimateText(*estimate); });
 }
 
@@ -72,9 +76,11 @@ absl::StatusOr<RemoteTable> RemoteFrom(const TableOptions& options) {
                      .calibration = options.calibration,
                      .spec = {},
                      .has_spec = !options.spec.empty() || !options.set.empty(),
+                     .spec_place = SpecPlace(options),
                      .allow_draft = options.allow_draft,
                      .no_wait = options.no_wait,
                      .output = options.output};
+  if (!wanted.has_spec) wanted.spec_place = "table_spec: ";
   TRUEPOSE_ASSIGN_OR_RETURN(wanted.spec, LoadTableSpec(options));
   return wanted;
 }

@@ -42,9 +42,12 @@ Typed ParseTyped(const std::string& typed) {
   return {"", typed};
 }
 
+bool IsHex(const std::string& id) {
+  return id.find_first_not_of("0123456789abcdef-") == std::string::npos;
+}
+
 bool IsPrefix(const std::string& id) {
-  return id.size() >= kShortestPrefix && id.size() <= kDigestLength &&
-         id.find_first_not_of("0123456789abcdef-") == std::string::npos;
+  return id.size() >= kShortestPrefix && id.size() <= kDigestLength && IsHex(id);
 }
 
 absl::StatusOr<v1::CompensationTable> Get(const client::Client& client, const Typed& typed) {
@@ -95,11 +98,21 @@ std::string Names(const Tables& tables) {
 }
 
 absl::Status Refused(absl::StatusCode code, const std::string& typed, const std::string& why,
-                     const Tables& tables) {
+                     const std::string& expected) {
   FaultList faults;
-  faults.Add("TABLE", absl::StrCat(typed, ", ", why),
-             tables.empty() ? "a table of `table list`" : Names(tables));
+  faults.Add("TABLE", absl::StrCat(typed, ", ", why), expected);
   return faults.ToStatus(code);
+}
+
+absl::Status Refused(absl::StatusCode code, const std::string& typed, const std::string& why,
+                     const Tables& tables) {
+  return Refused(code, typed, why, tables.empty() ? "a table of `table list`" : Names(tables));
+}
+
+absl::Status OnTheOtherSide(const std::string& typed, bool deleted) {
+  return Refused(absl::StatusCode::kNotFound, typed,
+                 deleted ? "which is not deleted" : "which is deleted",
+                 deleted ? "a deleted table" : "a table that is not deleted");
 }
 
 absl::StatusOr<v1::CompensationTable> OneOf(Tables tables, const std::string& typed,
@@ -123,8 +136,26 @@ absl::StatusOr<v1::CompensationTable> FindById(const client::Client& client, con
     TRUEPOSE_ASSIGN_OR_RETURN(found, BeginningSo(client, typed.robot, typed.id, deleted));
   }
   if (!found.empty()) return OneOf(std::move(found), text, "table that begins so");
+  if (IsPrefix(typed.id)) {
+    TRUEPOSE_ASSIGN_OR_RETURN(found, BeginningSo(client, typed.robot, typed.id, !deleted));
+  }
+  if (!found.empty()) return OnTheOtherSide(text, deleted);
   TRUEPOSE_ASSIGN_OR_RETURN(const Tables all, List(client, typed.robot, "", deleted));
   return Refused(absl::StatusCode::kNotFound, text, "which is no table's", all);
+}
+
+// Why digits are no table's, to somebody who may have meant one on the other side of deletion.
+absl::StatusOr<v1::CompensationTable> NoTable(const client::Client& client,
+                                              const std::string& typed, bool deleted) {
+  if (!IsPrefix(typed)) {
+    return FaultStatus("TABLE",
+                       absl::StrCat(typed, ", which is no robot and too short for a table"),
+                       absl::StrCat("ROBOT/UUID, or ", kShortestPrefix,
+                                    " or more first digits of a UUID or SHA-256"));
+  }
+  TRUEPOSE_ASSIGN_OR_RETURN(const Tables others, BeginningSo(client, "", typed, !deleted));
+  if (!others.empty()) return OnTheOtherSide(typed, deleted);
+  return Refused(absl::StatusCode::kNotFound, typed, "which is no table's and no robot", Tables());
 }
 
 // Somebody who typed digits meant a table, if there is no robot of that name.
@@ -133,9 +164,12 @@ absl::StatusOr<v1::CompensationTable> OrByPrefix(const client::Client& client,
                                                  absl::StatusOr<v1::CompensationTable> of_robot) {
   const bool is_no_robot =
       absl::IsNotFound(of_robot.status()) || absl::IsInvalidArgument(of_robot.status());
-  if (!is_no_robot || !IsPrefix(typed)) return of_robot;
-  TRUEPOSE_ASSIGN_OR_RETURN(Tables found, BeginningSo(client, "", typed, deleted));
-  if (found.empty()) return of_robot;
+  if (!is_no_robot || !IsHex(typed)) return of_robot;
+  Tables found;
+  if (IsPrefix(typed)) {
+    TRUEPOSE_ASSIGN_OR_RETURN(found, BeginningSo(client, "", typed, deleted));
+  }
+  if (found.empty()) return NoTable(client, typed, deleted);
   return OneOf(std::move(found), typed, "table that begins so");
 }
 

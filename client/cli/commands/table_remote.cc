@@ -9,6 +9,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
+#include "absl/strings/str_replace.h"
 #include "client/cli/commands/download.h"
 #include "client/cli/commands/list_options.h"
 #include "client/cli/commands/table_names.h"
@@ -20,12 +21,15 @@
 #include "client/cli/reply.h"
 #include "client/cli/report.h"
 #include "client/cli/table.h"
+#include "client/cli/verdict.h"
 #include "client/pager.h"
+#include "core/base/fault.h"
 #include "core/base/status_macros.h"
 
 namespace truepose::cli {
 namespace {
 
+constexpr char kDryRun[] = "Dry run: nothing was changed.\n";
 constexpr char kTableHint[] = "`truepose table list` shows the tables of this server.";
 
 std::string StateText(const v1::CompensationTable& table) {
@@ -61,11 +65,21 @@ std::string AccuracyText(const v1::CompensationTableHeader& header) {
                       " of the domain\n");
 }
 
+// The same spec fails again: what to change, where it is, and how to try it.
+std::string NextOfFailed(const v1::CompensationTable& table) {
+  const std::string robot = ShortName(RobotOf(table.calibration()));
+  return absl::StrCat(
+      "Next: change the spec in what is said here; truepose table estimate --robot ", robot,
+      " --spec FILE tries one.\n      Then truepose table build --robot ", robot,
+      " --spec FILE; for the tables that follow activations truepose robot update ", robot,
+      " --table-spec FILE\n");
+}
+
 std::string TableText(const v1::CompensationTable& table) {
   std::string text = absl::StrCat("Table ", ShortTable(table.name()), " of ",
                                   ShortName(table.calibration()), ": ", StateText(table), "\n");
   if (table.state() == v1::TABLE_FAILED)
-    return absl::StrCat(text, table.error().message(), "\nNext: truepose table build\n");
+    return absl::StrCat(text, table.error().message(), "\n", NextOfFailed(table));
   if (table.state() == v1::TABLE_BUILDING)
     return absl::StrCat(text, "Next: truepose job watch ", ShortName(table.job()), "\n");
   return absl::StrCat(text, Megabytes(table.size_bytes()), ", SHA-256 ", table.sha256(), "\n",
@@ -104,11 +118,22 @@ std::string TablesTable(const v1::ListCompensationTablesResponse& list) {
   return rows.Text();
 }
 
+// What is asked of the reader is an option, too.
+absl::Status WithOptionNames(const absl::Status& status) {
+  FaultList faults;
+  for (Fault fault : FaultsOf(status)) {
+    fault.expected = absl::StrReplaceAll(fault.expected, {{"allow_draft", "--allow-draft"}});
+    faults.Add(std::move(fault));
+  }
+  return faults.empty() ? status : WithFaults(status, faults);
+}
+
 // Faults name fields of the request; people typed options.
-absl::Status AsTyped(const absl::Status& status) {
-  return RenameFields(status, {{"compensation_table.spec.", "--spec: "},
-                               {"compensation_table.calibration", "--calibration"},
-                               {"parent", "--robot"}});
+absl::Status AsTyped(const absl::Status& status, const RemoteTable& wanted) {
+  return AsFaultOfVerdict(
+      WithOptionNames(RenameFields(status, {{"compensation_table.spec.", wanted.spec_place},
+                                            {"compensation_table.calibration", "--calibration"},
+                                            {"parent", "--robot"}})));
 }
 
 absl::StatusOr<v1::CreateCompensationTableRequest> RequestOf(const RemoteTable& wanted) {
@@ -148,6 +173,15 @@ absl::Status Deliver(const Invocation& invocation, const client::Client& client,
   });
 }
 
+// The table is there whether its calibration can be read or not.
+void WarnOfVerdictOf(const Console& console, const client::Client& client,
+                     const std::string& calibration) {
+  v1::GetCalibrationRequest request;
+  request.set_name(calibration);
+  const auto found = client.GetCalibration(request);
+  if (found.ok()) WarnOfVerdict(console, found->report());
+}
+
 absl::Status BuildAndWait(const Invocation& invocation, const client::Client& client,
                           const RemoteTable& wanted) {
   const InterruptScope interrupt;
@@ -161,6 +195,7 @@ absl::Status BuildAndWait(const Invocation& invocation, const client::Client& cl
     TRUEPOSE_RETURN_IF_ERROR(StatusOfJob(job));
     TRUEPOSE_ASSIGN_OR_RETURN(table, FindTable(client, table.name()));
   }
+  WarnOfVerdictOf(invocation.console, client, table.calibration());
   return Deliver(invocation, client, table, wanted.output);
 }
 
@@ -208,6 +243,8 @@ absl::Status DeleteOne(const Invocation& invocation, const OneTable& options) {
     request.set_name(found.name());
     TRUEPOSE_ASSIGN_OR_RETURN(const auto table, client.DeleteCompensationTable(request));
     return Reply(invocation, table, [&] {
+      if (options.validate_only)
+        return absl::StrCat("Would delete table ", ShortTable(table.name()), "\n", kDryRun);
       return absl::StrCat("Deleted table ", ShortTable(table.name()), "\n`truepose table undelete ",
                           ShortTable(table.name()), "` brings it back within 7 days.\n");
     });
@@ -222,7 +259,11 @@ absl::Status UndeleteOne(const Invocation& invocation, const OneTable& options) 
                               FindTableToChange(client, options.name, true));
     request.set_name(found.name());
     TRUEPOSE_ASSIGN_OR_RETURN(const auto table, client.UndeleteCompensationTable(request));
-    return Reply(invocation, table, [&] { return TableText(table); });
+    return Reply(invocation, table, [&] {
+      return options.validate_only
+                 ? absl::StrCat("Would bring back table ", ShortTable(table.name()), "\n", kDryRun)
+                 : TableText(table);
+    });
   });
 }
 
@@ -271,7 +312,7 @@ void AddChange(const Command& group, const std::string& verb, const std::string&
 
 absl::Status BuildTableOnServer(const Invocation& invocation, const RemoteTable& wanted) {
   return WithServer(invocation, kCalibrationHint, [&](const client::Client& client) {
-    return AsTyped(BuildAndWait(invocation, client, wanted));
+    return AsTyped(BuildAndWait(invocation, client, wanted), wanted);
   });
 }
 
@@ -281,7 +322,7 @@ absl::Status EstimateTableOnServer(const Invocation& invocation, const RemoteTab
         TRUEPOSE_ASSIGN_OR_RETURN(auto request, RequestOf(wanted));
         request.set_validate_only(true);
         const auto table = client.CreateCompensationTable(request);
-        if (!table.ok()) return AsTyped(table.status());
+        if (!table.ok()) return AsTyped(table.status(), wanted);
         return Reply(invocation, table->estimate(), [&] { return EstimateText(*table); });
       });
 }

@@ -14,7 +14,8 @@ struct RemoteTable {
   std::string robot;        // "" = the calibration's
   std::string calibration;  // such as ur10#1; "" = the robot's active one
   v1::CompensationTableSpec spec;
-  bool has_spec = false;  // else the robot's table_spec
+  bool has_spec = false;   // else the robot's table_spec
+  std::string spec_place;  // before each fault of the spec
   bool allow_draft = false, no_wait = false;
   std::string output;  // "" = it stays there
 };

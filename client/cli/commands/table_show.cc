@@ -8,6 +8,7 @@
 #include "client/cli/commands/table_names.h"
 #include "client/cli/commands/table_remote.h"
 #include "client/cli/reply.h"
+#include "client/cli/same_robot.h"
 #include "client/cli/table.h"
 #include "client/cli/table_text.h"
 #include "convert/table_header.h"
@@ -57,6 +58,9 @@ absl::Status Verify(const Invocation& invocation, const VerifyOptions& options) 
   TRUEPOSE_ASSIGN_OR_RETURN(const compensation::TableFile file, LoadTable(options.table));
   TRUEPOSE_ASSIGN_OR_RETURN(const LocalCalibration local,
                             LoadLocalCalibration(options.robot, options.ends, options.calibration));
+  TRUEPOSE_RETURN_IF_ERROR(
+      CheckSameRobot({options.table, "a table", std::string(file.table().header.robot.view())},
+                     local.robot, options.robot));
   const auto verified = convert::RunTableVerification(
       file.table(), local.robot.nominal, local.calibration, {options.points, options.seed});
   if (!verified.ok())
